@@ -23,6 +23,8 @@ pub(super) struct Burden {
     pub(super) stiffness: f64,
     /// A coil driven by a voltage, if there is one.
     pub(super) circuit: Option<Circuit>,
+    /// Whether it is that of a twin, whose energy is not the surface's.
+    pub(super) twin: bool,
 }
 
 /// The loads at eight ports: their coefficients for one step, and their states.
@@ -108,9 +110,12 @@ impl Bank {
         loads.recall[1][lane] = over(mass * last);
         loads.carry[lane] = over(coil.carry);
         (loads.memory[lane], loads.fade[lane], loads.induce[lane]) = (memory, coil.fade, coil.induce);
-        (loads.stiffness[lane], loads.inductance[lane]) = (burden.stiffness, coil.inductance);
+        let counted = if burden.twin { 0.0 } else { 1.0 };
+        (loads.stiffness[lane], loads.inductance[lane]) =
+            (counted * burden.stiffness, counted * coil.inductance);
         let form = [(5.0 + 3.0 * memory) / 4.0, -(1.0 - memory) * (2.0 + memory) / 2.0, (1.0 - memory) / 4.0];
-        loads.masses.iter_mut().zip(form).for_each(|(to, share)| to[lane] = burden.mass * share);
+        let mass = counted * burden.mass;
+        loads.masses.iter_mut().zip(form).for_each(|(to, share)| to[lane] = mass * share);
         let heft = if shared { burden.mass.sqrt() } else { 0.0 };
         loads.lightness[lane] = if heft > 0.0 { 1.0 / heft } else { 0.0 };
         self.depth[port / OCT][lane] = depth;

@@ -1,12 +1,13 @@
 //! The time-stepper: modes advanced by their exact propagator, loads solved implicitly.
 
-use super::bank::{Bank, Burden};
+use super::bank::Bank;
 use super::couplings::{Couplings, Part};
 use super::field::{Field, PortSums, Probes};
 use super::lanes::{LANES, Rows, Tiles};
 use super::lead::Lead;
 use super::small::{OCT, Oct, octs};
 use super::touch::Touch;
+use super::wiring::Wiring;
 use super::{Channel, Plant, StepperOptions};
 use crate::PhysicsError;
 use pulp::{Arch, Simd, WithSimd};
@@ -19,8 +20,10 @@ use unripple_core::{Finger, Pole};
 /// have two rows each, for the place they move from and the place they move to.
 #[derive(Clone, Debug)]
 pub(super) struct Engine {
-    /// Displacement and velocity of all modes.
+    /// Displacement and velocity of all modes, and of the housings and their twins behind them.
     pub(super) field: Field,
+    /// Number of modes and housings; what is behind them is of twins, which are no part of the surface.
+    pub(super) own: usize,
     /// The loads at all ports.
     pub(super) bank: Bank,
     /// The port and factors of each channel, in channel order.
@@ -92,7 +95,7 @@ impl Engine {
         let (fixed, fingers) = (wiring.rows.len(), options.max_fingers);
         let (ports, columns) = (fixed + fingers, fixed + 2 * fingers);
         let striking = wiring.leads.iter().any(Lead::strikes);
-        let mut weights = Rows::zeros(fixed + 2 * fingers, plant.modes());
+        let mut weights = Rows::zeros(fixed + 2 * fingers, wiring.poles.len());
         wiring.rows.iter().enumerate().for_each(|(row, values)| weights.fill(row, values));
         let parts: Vec<Part> =
             (0..fixed).map(|row| Part { rows: [row; 2], columns: [row; 2], shares: [0.0, 1.0] }).collect();
@@ -103,7 +106,8 @@ impl Engine {
         let share = |time: f64| if time > dt { dt / time } else { 1.0 };
         let zeros = vec![[0.0; OCT]; octs(ports)];
         let mut engine = Self {
-            field: Field::new(&plant.poles, dt),
+            field: Field::new(&wiring.poles, dt),
+            own: plant.modes() + wiring.housings,
             sharing: bank.shares(),
             bank,
             leads: wiring.leads,
@@ -111,7 +115,7 @@ impl Engine {
             couplings: Couplings::new(fixed + 2 * fingers, ports, &parts),
             weights,
             fixed,
-            tiles: Tiles::zeros(columns, plant.modes()),
+            tiles: Tiles::zeros(columns, wiring.poles.len()),
             forces: vec![0.0; columns],
             impulses: vec![0.0; columns],
             pending: false,
@@ -132,7 +136,7 @@ impl Engine {
             impulse: zeros.clone(),
             change: zeros.clone(),
             free: zeros,
-            probes: Probes::new(&[], Vec::new()),
+            probes: Probes::new(&[], Vec::new(), wiring.poles.len()),
             samples: 0,
             stale: true,
             arch: Arch::new(),
@@ -248,43 +252,5 @@ impl WithSimd for Measure<'_> {
             couplings.measure(simd, row, others, weights, &field.factors);
         }
         self.engine.renew_now(simd);
-    }
-}
-
-/// The ports of all channels, with their loads.
-struct Wiring {
-    /// Weights of the ports, those without load first.
-    rows: Vec<Vec<f64>>,
-    plain: usize,
-    burdens: Vec<Burden>,
-    leads: Vec<Lead>,
-}
-
-impl Wiring {
-    /// Assigns ports to channels: those without load first, then one for each load.
-    fn of(plant: &Plant, channels: &[Channel], rate: f64, dt: f64) -> Result<Self, PhysicsError> {
-        channels.iter().try_for_each(Channel::check)?;
-        let channels: Vec<Channel> = channels.iter().map(|channel| channel.settled(rate)).collect();
-        let struck = |channel: &Channel| {
-            !channel.voltage && channel.load.as_ref().is_none_or(|load| load.footprint != channel.footprint)
-        };
-        let plain = channels.iter().filter(|channel| struck(channel)).count();
-        let (mut rows, mut loaded) = (Vec::new(), Vec::new());
-        let (mut burdens, mut leads) = (Vec::new(), Vec::new());
-        for channel in &channels {
-            let mut port = rows.len();
-            if struck(channel) {
-                rows.push(plant.weights(&channel.footprint)?);
-            }
-            if let Some(load) = &channel.load {
-                port = if struck(channel) { port } else { plain + loaded.len() };
-                loaded.push(plant.weights(&load.footprint)?);
-                let (mass, damping, stiffness) = (load.mass, load.damping, load.stiffness);
-                burdens.push(Burden { mass, damping, stiffness, circuit: load.circuit });
-            }
-            leads.push(Lead::of(channel, port, rate, dt));
-        }
-        rows.append(&mut loaded);
-        Ok(Self { rows, plain, burdens, leads })
     }
 }

@@ -15,6 +15,8 @@ use crate::Circuit;
 pub(super) struct Lead {
     /// Index of the port.
     pub(super) port: usize,
+    /// Index of the port of an exciter's twin, which has the same drive and whose signal is subtracted; `None` for other channels.
+    pub(super) twin: Option<usize>,
     /// Impulse (N·s) per unit of drive in one sample.
     pub(super) strike: f64,
     /// Sensor signal per velocity (m/s) of the port.
@@ -31,6 +33,7 @@ impl Lead {
         let gain = channel.gain;
         let struck = |share: f64| Self {
             port,
+            twin: None,
             strike: share * gain / rate,
             felt: share * gain,
             jump: 0.0,
@@ -46,6 +49,12 @@ impl Lead {
         let share = sudden(theta);
         let slow = (1.0 - share) * gain;
         Self { jump: slow / (inductance * rate), driven: slow, ..struck(share * at_once) }
+    }
+
+    /// The ports that the drive acts at.
+    #[inline(always)]
+    pub(super) fn ports(&self) -> impl Iterator<Item = usize> {
+        [Some(self.port), self.twin].into_iter().flatten()
     }
 
     /// Whether any part of the drive acts on the sheet at once, as an impulse.

@@ -19,6 +19,9 @@
 //! bl(i + i⁺)/2 with L(i⁺ - i)/dt + R(i + i⁺)/2 = -blΔu/dt. All have the form F = -AΔu + (known terms), A ≥ 0, and the system
 //! (I + SA)F = …, with a row for each load, is solved at each step.
 //!
+//! The housing of an exciter is one more coordinate, which moves freely as a mode of frequency 0; its spring, damper and coil are a load
+//! for which w_j has the weight -1/√M there, so that Δu_j is the displacement of the contact relative to the housing.
+//!
 //! # Why it cannot gain energy
 //!
 //! Since F is constant, its work on the sheet over the sample is exactly F·Δu, and the sheet's energy changes by that minus
@@ -43,6 +46,7 @@ mod run;
 mod small;
 mod surface;
 mod touch;
+mod wiring;
 
 pub use faults::{InjectedFaults, Misbehaving};
 pub use history::History;

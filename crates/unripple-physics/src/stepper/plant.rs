@@ -37,7 +37,8 @@ pub struct Channel {
     pub load: Option<Load>,
     /// Whether the drive is the voltage of the load's coil. The sensor signal is then the current j that only the motion drives
     /// through the coil, L dj/dt + R j = bl·v, in A, without the current that the drive causes in a coil at rest. Otherwise it is
-    /// the sheet's velocity times the gain.
+    /// the sheet's velocity times the gain. With a housing, v is relative to it, without the part of its motion that the drive
+    /// causes on a sheet that is held still.
     pub voltage: bool,
 }
 
@@ -210,32 +211,15 @@ impl Channel {
     pub(super) fn check(&self) -> Result<(), PhysicsError> {
         require("gain of a channel", true, "a finite number", self.gain)?;
         if let Some(load) = &self.load {
-            require("mass of a load in kg", load.mass >= 0.0, "0 or more", load.mass)?;
-            require("damping of a load in N·s/m", load.damping >= 0.0, "0 or more", load.damping)?;
-            require("stiffness of a load in N/m", load.stiffness >= 0.0, "0 or more", load.stiffness)?;
+            load.check()?;
         }
-        match self.load.as_ref().and_then(|load| load.circuit) {
-            Some(coil) => {
-                require("force constant of a coil in N/A", true, "a finite number", coil.force_constant)?;
-                require(
-                    "resistance of a coil in Ω",
-                    coil.resistance > 0.0,
-                    "a positive number",
-                    coil.resistance,
-                )?;
-                Ok(require(
-                    "inductance of a coil in H",
-                    coil.inductance >= 0.0,
-                    "0 or more",
-                    coil.inductance,
-                )?)
-            }
-            None if self.voltage => Err(PhysicsError::Unsupported {
+        if self.voltage && self.load.as_ref().is_none_or(|load| load.circuit.is_none()) {
+            return Err(PhysicsError::Unsupported {
                 what: "load of a channel driven by a voltage",
                 expected: "a coil",
                 found: "none".into(),
-            }),
-            None => Ok(()),
+            });
         }
+        Ok(())
     }
 }

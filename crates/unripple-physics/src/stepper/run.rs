@@ -155,9 +155,11 @@ impl Engine {
                 let value = value * factor;
                 if value.is_finite() { value } else { 0.0 }
             };
-            self.impulse.as_flattened_mut()[lead.port] += of(lead.strike);
-            if lead.jump != 0.0 {
-                self.bank.induce(lead.port, of(lead.jump));
+            for port in lead.ports() {
+                self.impulse.as_flattened_mut()[port] += of(lead.strike);
+                if lead.jump != 0.0 {
+                    self.bank.induce(port, of(lead.jump));
+                }
             }
         }
     }
@@ -200,8 +202,8 @@ impl Engine {
     fn reduce(&mut self, planes: &mut Planes, frame: usize) {
         let Out { stride, first } = planes.out;
         for (lead, sensor) in self.leads.iter().zip(planes.sensors.chunks_exact_mut(stride)) {
-            let velocity = self.velocity.as_flattened()[lead.port];
-            sensor[first + frame] = lead.hears(velocity, self.bank.driven(lead.port));
+            let heard = |port: usize| lead.hears(self.velocity.as_flattened()[port], self.bank.driven(port));
+            sensor[first + frame] = heard(lead.port) - lead.twin.map_or(0.0, heard);
         }
     }
 

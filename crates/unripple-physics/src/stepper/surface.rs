@@ -120,7 +120,8 @@ impl VirtualSurface {
         let rows = probes.iter().map(|(at, _)| Ok(self.plant.footing(*at, 0.0)?.weights));
         let rows: Vec<Vec<f64>> = rows.collect::<Result<_, PhysicsError>>()?;
         let displaced = probes.iter().map(|(_, reading)| *reading == Reading::Displacement).collect();
-        self.engine.probes = Probes::new(&rows, displaced);
+        let modes = self.engine.field.displacement().len();
+        self.engine.probes = Probes::new(&rows, displaced, modes);
         Ok(())
     }
 
@@ -345,9 +346,10 @@ impl VirtualSurface {
         Snapshot { displacement: read(displacement), velocity: read(velocity) }
     }
 
-    /// Energy of the sheet and its loads, in J: kinetic, elastic, magnetic. Without drive it grows only by changes of tension.
+    /// Energy of the sheet, its loads and their housings, in J: kinetic, elastic, magnetic. Without drive it grows only by changes of
+    /// tension.
     pub fn energy(&self) -> f64 {
-        self.engine.field.energy() + self.engine.bank.energy()
+        self.engine.field.energy(self.engine.own) + self.engine.bank.energy()
     }
 
     fn check_footing(&self, footing: &Footing) -> Result<(), PhysicsError> {

@@ -64,6 +64,6 @@ impl Touch {
     /// The finger as a load.
     pub(super) fn burden(&self) -> Burden {
         let Finger { mass, damping, stiffness, .. } = self.finger;
-        Burden { mass, damping, stiffness, circuit: None }
+        Burden { mass, damping, stiffness, circuit: None, twin: false }
     }
 }

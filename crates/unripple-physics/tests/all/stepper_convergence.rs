@@ -6,14 +6,17 @@ use crate::truth;
 use stepper_common::*;
 use truth::{Hung, Truth};
 use unripple_core::*;
-use unripple_physics::Circuit;
 use unripple_physics::stepper::*;
+use unripple_physics::{Circuit, Housing};
 
 const RATE: f64 = 48e3;
 const MODES: usize = 25;
 
 /// The paper's coil, with a force constant that a magnet of its size could have.
 const COIL: Circuit = Circuit { force_constant: 1.5, resistance: 6.2, inductance: 1.9e-3 };
+
+/// A housing of 5 g on a spring, 100 Hz, and its damper.
+const HOUSING: Housing = Housing { mass: 5e-3, damping: 1.0, stiffness: 2e3 };
 
 /// A surface, and the same as a system of equations: channels in order, then a finger.
 struct Case {
@@ -37,6 +40,17 @@ impl Case {
         Self { channels, finger: finger(62.0, 90.0, [2e-4, 1.0, 1e3]) }
     }
 
+    /// Exciters on a current, on a voltage, and on a voltage without inductance.
+    fn exciters() -> Self {
+        let plain = Circuit { inductance: 0.0, ..COIL };
+        let channels = vec![
+            exciter(31.0, 12.0, 3e-4, HOUSING, None),
+            exciter(120.0, 84.0, 1e-4, HOUSING, Some(COIL)),
+            exciter(70.0, 20.0, 2e-4, HOUSING, Some(plain)),
+        ];
+        Self { channels, finger: finger(62.0, 90.0, [2e-4, 1.0, 1e3]) }
+    }
+
     fn surface(&self, substeps: usize) -> VirtualSurface {
         let options = StepperOptions { substeps, fade: 0.0, ..Default::default() };
         let mut surface =
@@ -56,62 +70,95 @@ impl Case {
     }
 
     fn exact(&self, drive: &[f64], steps: usize) -> Vec<f64> {
-        let shapes = Sines(MODES);
-        let weights = |at: Point| {
-            let mut row = vec![0.0; MODES];
-            shapes.at(at, &mut row);
-            row
-        };
-        let mut hung = Vec::new();
-        let mut own = Vec::new();
-        for channel in &self.channels {
+        let (frames, probe) = (drive.len() / self.channels.len(), weights(mm(100.0, 40.0)));
+        let mut whole = Whole::new(self);
+        let mut out = vec![0.0; (self.channels.len() + 1) * frames];
+        for frame in 0..frames {
+            if frame > 0 {
+                whole.advance(1.0 / RATE, steps);
+            }
+            for (c, channel) in self.channels.iter().enumerate() {
+                whole.drive(c, channel, drive[c * frames + frame] / RATE);
+            }
+            for (c, channel) in self.channels.iter().enumerate() {
+                out[c * frames + frame] = whole.heard(c, channel);
+            }
+            out[self.channels.len() * frames + frame] = whole.truth.velocity(&probe);
+        }
+        out
+    }
+}
+
+fn weights(at: Point) -> Vec<f64> {
+    let mut row = vec![0.0; MODES];
+    Sines(MODES).at(at, &mut row);
+    row
+}
+
+/// The system of equations of a case.
+struct Whole {
+    truth: Truth,
+    /// Number of each channel's load, if it has one.
+    own: Vec<Option<usize>>,
+    /// Each load on a sheet that is held still: sensors do not hear what drives cause there.
+    held: Vec<Truth>,
+}
+
+impl Whole {
+    fn new(case: &Case) -> Self {
+        let (mut hung, mut own) = (Vec::new(), Vec::new());
+        for channel in &case.channels {
             own.push(channel.load.as_ref().map(|load| {
                 let values = [load.mass, load.damping, load.stiffness];
                 let weights = weights(load.footprint.points[0].0);
-                hung.push(Hung { weights, values, circuit: load.circuit });
+                hung.push(Hung { weights, values, circuit: load.circuit, housing: load.housing });
                 hung.len() - 1
             }));
         }
-        let Finger { mass, damping, stiffness, .. } = self.finger.finger;
+        let still = |hung: &Hung| Truth::new(&[], &[Hung { weights: Vec::new(), ..hung.clone() }]);
+        let held = hung.iter().map(still).collect();
+        let Finger { mass, damping, stiffness, .. } = case.finger.finger;
         let values = [mass, damping, stiffness];
-        hung.push(Hung { weights: weights(self.finger.at), values, circuit: None });
+        hung.push(Hung { weights: weights(case.finger.at), values, circuit: None, housing: None });
         let omega = |m: usize| {
             let (i, j) = ((m % 5 + 1) as f64, (m / 5 + 1) as f64);
             std::f64::consts::PI / SIDE * ((i * i + j * j) * 200.0 / 0.175).sqrt()
         };
         let poles: Vec<Pole> = (0..MODES).map(|m| Pole::new(omega(m), 14.0)).collect();
-        let mut truth = Truth::new(&poles, &hung);
-        let (frames, probe) = (drive.len() / self.channels.len(), weights(mm(100.0, 40.0)));
-        let mut out = vec![0.0; (self.channels.len() + 1) * frames];
-        // Currents that coils at rest would have: sensors hear what the motion alone drives.
-        let mut still = vec![0.0; self.channels.len()];
-        for frame in 0..frames {
-            if frame > 0 {
-                truth.advance(1.0 / RATE, steps);
+        Self { truth: Truth::new(&poles, &hung), own, held }
+    }
+
+    fn advance(&mut self, time: f64, steps: usize) {
+        self.truth.advance(time, steps);
+        self.held.iter_mut().for_each(|held| held.advance(time, steps));
+    }
+
+    /// An impulse of a channel's drive.
+    fn drive(&mut self, c: usize, channel: &Channel, impulse: f64) {
+        match self.own[c] {
+            Some(load) if channel.voltage => {
+                self.truth.shock(load, impulse);
+                self.held[load].shock(0, impulse);
             }
-            for (c, channel) in self.channels.iter().enumerate() {
-                let sample = drive[c * frames + frame] / RATE;
-                if let Some(coil) = channel.load.as_ref().and_then(|load| load.circuit) {
-                    let Circuit { resistance, inductance, .. } = coil;
-                    still[c] = still[c] * (-resistance / inductance / RATE).exp() + sample / inductance;
-                }
-                match own[c] {
-                    Some(load) if channel.voltage => truth.shock(load, sample),
-                    _ => truth.strike(&weights(channel.footprint.points[0].0), sample),
-                }
+            Some(load) => {
+                self.truth.push(load, impulse);
+                self.held[load].push(0, impulse);
             }
-            for (c, channel) in self.channels.iter().enumerate() {
-                let seen = truth.velocity(&weights(channel.footprint.points[0].0));
-                let coil = channel.load.as_ref().and_then(|load| load.circuit).filter(|_| channel.voltage);
-                out[c * frames + frame] = match coil {
-                    Some(coil) if coil.inductance > 0.0 => still[c] - truth.current(own[c].unwrap()),
-                    Some(coil) => coil.force_constant / coil.resistance * seen,
-                    None => seen,
-                };
-            }
-            out[self.channels.len() * frames + frame] = truth.velocity(&probe);
+            None => self.truth.strike(&weights(channel.footprint.points[0].0), impulse),
         }
-        out
+    }
+
+    /// What a channel hears: the motion, or what it alone drives through a coil.
+    fn heard(&self, c: usize, channel: &Channel) -> f64 {
+        let Some(load) = self.own[c] else {
+            return self.truth.velocity(&weights(channel.footprint.points[0].0));
+        };
+        let moved = self.truth.apart(load) - self.held[load].apart(0);
+        match channel.load.as_ref().and_then(|load| load.circuit).filter(|_| channel.voltage) {
+            Some(coil) if coil.inductance > 0.0 => self.held[load].current(0) - self.truth.current(load),
+            Some(coil) => coil.force_constant / coil.resistance * moved,
+            None => moved,
+        }
     }
 }
 
@@ -147,6 +194,12 @@ fn coils_on_a_voltage_and_a_finger_converge() {
 #[test]
 fn struck_masses_and_a_finger_converge() {
     let case = Case::mixed();
+    falls_as_the_square(&case, &pulse(3, 240, 700.0, RATE), 0.05);
+}
+
+#[test]
+fn exciters_and_a_finger_converge() {
+    let case = Case::exciters();
     falls_as_the_square(&case, &pulse(3, 240, 700.0, RATE), 0.05);
 }
 

@@ -3,17 +3,19 @@
 #![allow(dead_code)]
 
 use unripple_core::Pole;
-use unripple_physics::Circuit;
+use unripple_physics::{Circuit, Housing};
 
-/// What hangs at a port: mass, damping, stiffness and coil.
+/// What hangs at a port: mass, damping, stiffness, coil and housing.
 #[derive(Clone, Debug)]
 pub struct Hung {
     pub weights: Vec<f64>,
     pub values: [f64; 3],
     pub circuit: Option<Circuit>,
+    pub housing: Option<Housing>,
 }
 
-/// The coupled system: displacement and velocity of each mode, extension and current of each load.
+/// The coupled system: displacement and velocity of each mode, then of each load the extension of its spring to the ground, its
+/// current, the extension of its housing's spring, and its housing's velocity.
 pub struct Truth {
     poles: Vec<Pole>,
     hung: Vec<Hung>,
@@ -30,7 +32,7 @@ impl Truth {
             if i == j { 1.0 + hung } else { hung }
         };
         let lightness = inverse((0..n).map(|i| (0..n).map(|j| heft(i, j)).collect()).collect());
-        let state = vec![0.0; 2 * n + 2 * hung.len()];
+        let state = vec![0.0; 2 * n + 4 * hung.len()];
         Self { poles: poles.to_vec(), hung: hung.to_vec(), lightness, state }
     }
 
@@ -43,6 +45,16 @@ impl Truth {
         }
     }
 
+    /// An impulse on the modes where a load hangs, and back on its housing.
+    pub fn push(&mut self, load: usize, impulse: f64) {
+        let weights = self.hung[load].weights.clone();
+        self.strike(&weights, impulse);
+        if let Some(housing) = self.hung[load].housing {
+            let place = 2 * self.poles.len() + 3 * self.hung.len() + load;
+            self.state[place] -= impulse / housing.mass;
+        }
+    }
+
     /// A jump of the voltage's integral at a load's coil.
     pub fn shock(&mut self, load: usize, flux: f64) {
         let circuit = self.hung[load].circuit.unwrap();
@@ -50,9 +62,14 @@ impl Truth {
             let n = 2 * self.poles.len() + self.hung.len();
             self.state[n + load] += flux / circuit.inductance;
         } else {
-            let weights = self.hung[load].weights.clone();
-            self.strike(&weights, circuit.force_constant / circuit.resistance * flux);
+            self.push(load, circuit.force_constant / circuit.resistance * flux);
         }
+    }
+
+    /// The velocity of a load's contact relative to its housing, or to the ground if it has none.
+    pub fn apart(&self, load: usize) -> f64 {
+        let housing = self.state[2 * self.poles.len() + 3 * self.hung.len() + load];
+        self.velocity(&self.hung[load].weights) - housing
     }
 
     /// The velocity that weights see.
@@ -74,17 +91,24 @@ impl Truth {
             .collect();
         for (l, hung) in self.hung.iter().enumerate() {
             let v: f64 = hung.weights.iter().zip(&x[n..]).map(|(w, v)| w * v).sum();
-            let (e, i) = (x[2 * n + l], x[2 * n + loads + l]);
-            let mut pull = -hung.values[1] * v - hung.values[2] * e;
+            let [e, i, x, u] = [0, 1, 2, 3].map(|part| x[2 * n + part * loads + l]);
             slope[2 * n + l] = v;
+            // Between contact and housing; without one, u stays 0.
+            let apart = v - u;
+            let Housing { mass, damping, stiffness } =
+                hung.housing.unwrap_or(Housing { mass: f64::INFINITY, damping: 0.0, stiffness: 0.0 });
+            let mut pull = -damping * apart - stiffness * x;
             if let Some(Circuit { force_constant: bl, resistance, inductance }) = hung.circuit {
                 if inductance > 0.0 {
-                    slope[2 * n + loads + l] = (-resistance * i - bl * v) / inductance;
+                    slope[2 * n + loads + l] = (-resistance * i - bl * apart) / inductance;
                     pull += bl * i;
                 } else {
-                    pull -= bl * bl / resistance * v;
+                    pull -= bl * bl / resistance * apart;
                 }
             }
+            slope[2 * n + 2 * loads + l] = apart;
+            slope[2 * n + 3 * loads + l] = -pull / mass;
+            pull -= hung.values[1] * v + hung.values[2] * e;
             force.iter_mut().zip(&hung.weights).for_each(|(f, w)| *f += w * pull);
         }
         for m in 0..n {

@@ -1,0 +1,118 @@
+//! The ports of all channels in the time-domain simulation, and the housings of exciters among them.
+//!
+//! A housing is a coordinate behind the modes, like a mode of frequency 0, with the weight -1/√M at the port of its spring, damper and
+//! coil. So that port has the velocity of the contact relative to the housing, and its force acts on both.
+//!
+//! The sensor of an exciter hears what the motion of the sheet causes, but its drive moves the housing on a sheet that is held still as
+//! well. That part is simulated by a twin, the same housing with the same coil, drive and loads, on nothing, and subtracted. Both are
+//! stepped alike, so that reciprocity holds to rounding.
+
+use super::bank::Burden;
+use super::lead::Lead;
+use super::{Channel, Plant};
+use crate::{Load, PhysicsError};
+use unripple_core::Pole;
+
+/// The ports of all channels, with their loads.
+#[derive(Default)]
+pub(super) struct Wiring {
+    /// Weights of the ports, those without load first; what is missing at the end of a row is zero.
+    pub(super) rows: Vec<Vec<f64>>,
+    /// Number of ports without load.
+    pub(super) plain: usize,
+    /// The loads of the other ports, in order.
+    pub(super) burdens: Vec<Burden>,
+    /// The channels' ports and factors, in order.
+    pub(super) leads: Vec<Lead>,
+    /// Number of housings, each with a twin.
+    pub(super) housings: usize,
+    /// Poles of the modes, of the housings and of their twins.
+    pub(super) poles: Vec<Pole>,
+}
+
+/// Coordinates of a housing and of its twin, by their indices, and the weight of both at their ports.
+struct Place {
+    housing: usize,
+    twin: usize,
+    weight: f64,
+}
+
+impl Wiring {
+    /// Assigns ports to channels: those without load first, then those of each load.
+    ///
+    /// # Errors
+    /// Those of [`Channel::check`], and [`PhysicsError::Range`] for a footprint whose weights are not finite.
+    pub(super) fn of(plant: &Plant, channels: &[Channel], rate: f64, dt: f64) -> Result<Self, PhysicsError> {
+        channels.iter().try_for_each(Channel::check)?;
+        let channels: Vec<Channel> = channels.iter().map(|channel| channel.settled(rate)).collect();
+        let housing = |channel: &Channel| channel.load.as_ref().and_then(|load| load.housing);
+        let all = channels.iter().filter_map(housing).count();
+        let mut wiring = Self { plain: channels.iter().filter(|c| struck(c)).count(), ..Self::default() };
+        let mut loaded = Vec::new();
+        for channel in &channels {
+            let mut lead = Lead::of(channel, wiring.rows.len(), rate, dt);
+            if struck(channel) {
+                wiring.rows.push(plant.weights(&channel.footprint)?);
+            }
+            if let Some(load) = &channel.load {
+                let place = load.housing.map(|housing| {
+                    let number = plant.modes() + wiring.housings;
+                    Place { housing: number, twin: number + all, weight: housing.weight() }
+                });
+                wiring.housings += usize::from(place.is_some());
+                let weights = plant.weights(&load.footprint)?;
+                let port = wiring.hang(load, place.as_ref(), weights, &mut loaded);
+                if !struck(channel) {
+                    (lead.port, lead.twin) = (port, place.map(|_| port + 1));
+                }
+            }
+            wiring.leads.push(lead);
+        }
+        wiring.rows.append(&mut loaded);
+        let rigid = std::iter::repeat_n(Pole::new(0.0, 0.0), 2 * wiring.housings);
+        wiring.poles = plant.poles.iter().copied().chain(rigid).collect();
+        Ok(wiring)
+    }
+
+    /// Adds the ports of a load to those that are `loaded`, given the weights of its footprint, one per mode. Returns the port where a
+    /// coil acts, which that of the twin follows.
+    fn hang(
+        &mut self,
+        load: &Load,
+        place: Option<&Place>,
+        weights: Vec<f64>,
+        loaded: &mut Vec<Vec<f64>>,
+    ) -> usize {
+        let [ground, tied] = load.split();
+        if let Some(ground) = ground {
+            loaded.push(weights.clone());
+            self.burdens.push(burden(&ground));
+        }
+        if let Some((tied, Place { housing, twin, weight })) = tied.zip(place) {
+            loaded.push(with(weights, *housing, *weight));
+            self.burdens.push(burden(&tied));
+            loaded.push(with(Vec::new(), *twin, *weight));
+            self.burdens.push(Burden { twin: true, ..burden(&tied) });
+            return self.plain + loaded.len() - 2;
+        }
+        self.plain + loaded.len() - 1
+    }
+}
+
+/// Whether the drive of a channel acts at a port of its own: as a force where there is no load, or one with another footprint.
+fn struck(channel: &Channel) -> bool {
+    let apart = |load: &Load| load.housing.is_none() && load.footprint != channel.footprint;
+    !channel.voltage && channel.load.as_ref().is_none_or(apart)
+}
+
+fn burden(load: &Load) -> Burden {
+    let Load { mass, damping, stiffness, circuit, .. } = *load;
+    Burden { mass, damping, stiffness, circuit, twin: false }
+}
+
+/// A row of weights with one more at a coordinate behind them.
+fn with(mut row: Vec<f64>, coordinate: usize, weight: f64) -> Vec<f64> {
+    row.resize(coordinate, 0.0);
+    row.push(weight);
+    row
+}
