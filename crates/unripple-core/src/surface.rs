@@ -128,7 +128,7 @@ pub struct Actuator {
     pub at: Point,
     /// Kind of transducer and its constants.
     pub kind: ActuatorKind,
-    /// Radius of the disc over which the force of a point force or a magnet is evenly spread, in metres; 0 for a point.
+    /// Radius of the disc over which the force of a point force, a magnet or an exciter is evenly spread, in metres; 0 for a point.
     pub contact_radius: f64,
 }
 
@@ -150,6 +150,26 @@ pub enum ActuatorKind {
         /// Whether the amplifier sets the current or the voltage.
         driven_by: CoilDrive,
     },
+    /// A voice coil fixed to the sheet, in the field of a magnet whose housing hangs on a spring (an inertial or tactile exciter); its
+    /// drive is in A or V.
+    Exciter {
+        /// Force constant Bl (force per coil current), in N/A.
+        force_constant: f64,
+        /// Coil resistance, in Ω.
+        resistance: f64,
+        /// Coil inductance, in H.
+        inductance: f64,
+        /// Mass of the coil and its former, which move with the sheet, in kg.
+        moving_mass: f64,
+        /// Mass of the housing with the magnet, in kg.
+        housing_mass: f64,
+        /// Natural frequency of the housing on its spring while the coil is held still, in Hz.
+        resonance: f64,
+        /// Quality factor of that resonance, without the electrical damping by the coil.
+        quality_factor: f64,
+        /// Whether the amplifier sets the current or the voltage.
+        driven_by: CoilDrive,
+    },
     /// A piezo patch, which bends the sheet by a moment along its rim; its drive is in V.
     Piezo {
         /// Outline of the patch.
@@ -162,11 +182,12 @@ pub enum ActuatorKind {
 }
 
 impl ActuatorKind {
-    /// The name of this kind in surface files: `force`, `moving-magnet` or `piezo`.
+    /// The name of this kind in surface files: `force`, `moving-magnet`, `exciter` or `piezo`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Force => "force",
             Self::MovingMagnet { .. } => "moving-magnet",
+            Self::Exciter { .. } => "exciter",
             Self::Piezo { .. } => "piezo",
         }
     }

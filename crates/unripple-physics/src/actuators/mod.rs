@@ -6,11 +6,13 @@
 //! arm in [`Transducer::of`]. No other code depends on the kinds.
 
 mod derivative;
+mod exciter;
 mod force;
 mod moving_magnet;
 mod piezo;
 mod place;
 mod sensor;
+mod suspension;
 mod transducer;
 
 pub use sensor::{Sensor, sensed, sensors};
@@ -39,6 +41,7 @@ impl Transducer {
         let transducer = match actuator.kind {
             ActuatorKind::Force => force::transducer(actuator, outline),
             ActuatorKind::MovingMagnet { .. } => moving_magnet::transducer(actuator, outline),
+            ActuatorKind::Exciter { .. } => exciter::transducer(actuator, outline),
             ActuatorKind::Piezo { .. } => piezo::transducer(actuator, outline)?,
         };
         require("force of an actuator per unit of drive", true, "a finite number", transducer.gain)?;

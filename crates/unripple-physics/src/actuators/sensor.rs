@@ -1,8 +1,9 @@
 //! Actuators as sensors: the signals that the sheet's motion generates at their terminals.
 
 use super::derivative::Derivative;
+use super::suspension::Suspension;
 use super::{Entry, Transducer};
-use crate::{Circuit, Footprint};
+use crate::{Circuit, Footprint, Housing};
 use unripple_core::{ActuatorKind, ModalResponses, Surface};
 use unripple_linalg::{Mat, c64};
 
@@ -15,12 +16,17 @@ use unripple_linalg::{Mat, c64};
 /// | a force (N) | the velocity | v | m/s |
 /// | a coil's current (A) | the voltage of its open terminals | bl·v | V |
 /// | a coil's voltage (V) | the current j in its closed circuit, L dj/dt + R j = bl·v | bl·v/(R + Ls) | A |
+/// | an exciter's current (A) | the voltage of its open terminals, u the velocity of its housing | bl·(v - u) | V |
+/// | an exciter's voltage (V) | the current j in its closed circuit, L dj/dt + R j = bl·(v - u) | bl·(v - u)/(R + Ls) | A |
 /// | a patch's voltage (V) | the current of its short circuit | moment·∮ ∂v/∂n ds | A |
 ///
 /// What the drive itself causes at the terminals of a coil or patch that does not move, R i + L di/dt or V/(R + Ls) or C dV/dt, is
-/// not part of the signal; in a measurement, a bridge or a dummy load removes it. With this definition all pairs of actuators are
-/// reciprocal, whatever their kinds: the signal of b for a drive at a is that of a for the same drive at b, and an actuator senses
-/// its own drive with a positive sign (L. L. Foldy and H. Primakoff, *J. Acoust. Soc. Am.* 17, 109, 1945).
+/// not part of the signal; in a measurement, a bridge or a dummy load removes it. Nor is what the drive of an exciter causes by moving
+/// its housing on a sheet that is held still: u is the part of the housing's velocity that the sheet's motion causes,
+/// v - u = v·Ms/(Ms + T) with T as in [`Load::reaction`](crate::Load::reaction); a dummy load is another exciter on a heavy block. With
+/// this definition all pairs of actuators are reciprocal, whatever their kinds: the signal of b for a drive at a is that of a for the
+/// same drive at b, and an actuator senses its own drive with a positive sign (L. L. Foldy and H. Primakoff, *J. Acoust. Soc. Am.*
+/// 17, 109, 1945).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
     /// Contact at which it senses, as points and weights.
@@ -29,6 +35,8 @@ pub struct Sensor {
     pub gain: f64,
     /// The closed circuit in which the motion drives a current, for a coil driven by a voltage.
     pub circuit: Option<Circuit>,
+    /// The housing that an exciter senses the motion against.
+    pub housing: Option<Housing>,
     /// Unit of the signal: m/s, V or A.
     pub unit: &'static str,
     /// Whether it senses a velocity; a patch does not.
@@ -44,28 +52,43 @@ impl Sensor {
         };
         let unit = match (kind, circuit) {
             (ActuatorKind::Force, _) => "m/s",
-            (ActuatorKind::MovingMagnet { .. }, None) => "V",
-            (ActuatorKind::MovingMagnet { .. }, Some(_)) | (ActuatorKind::Piezo { .. }, _) => "A",
+            (ActuatorKind::MovingMagnet { .. } | ActuatorKind::Exciter { .. }, None) => "V",
+            (ActuatorKind::MovingMagnet { .. } | ActuatorKind::Exciter { .. }, Some(_))
+            | (ActuatorKind::Piezo { .. }, _) => "A",
         };
+        let housing = transducer.load.as_ref().and_then(|load| load.housing);
         let placed = !matches!(kind, ActuatorKind::Piezo { .. });
-        Self { footprint: transducer.footprint.clone(), gain: transducer.gain, circuit, unit, placed }
+        Self {
+            footprint: transducer.footprint.clone(),
+            gain: transducer.gain,
+            circuit,
+            housing,
+            unit,
+            placed,
+        }
     }
 
     /// Whether the velocity under the contact can be computed from the signal. It cannot for a patch, which senses the sheet's
-    /// bending.
+    /// bending, nor for an exciter, whose housing follows the sheet far below its resonance: what it does not sense there, a
+    /// signal that was cut off or has an offset would give without bounds.
     pub fn tells_velocity(&self) -> bool {
-        self.placed && self.gain != 0.0
+        self.placed && self.gain != 0.0 && self.housing.is_none()
     }
 
     /// Sensitivity: signal, in the sensor's unit, per velocity (m/s) under the contact, at the complex frequency `s`
     /// (1/s).
     pub fn per_velocity(&self, s: c64) -> c64 {
-        self.circuit.map_or(c64::new(1.0, 0.0), |circuit| circuit.admittance(s)) * self.gain
+        let closed = self.circuit.map_or(c64::new(1.0, 0.0), |circuit| circuit.admittance(s)) * self.gain;
+        let coil = Circuit::reaction(self.circuit.as_ref(), s);
+        self.housing.map_or(closed, |housing| closed * housing.transmission(coil, s))
     }
 
     /// The sensor signal, in the sensor's unit, for a velocity (m/s) under its contact, both at `rate` samples per second. The
     /// velocity counts as linear between samples.
     pub fn hear(&self, velocity: &[f64], rate: f64) -> Vec<f64> {
+        if let Some(housing) = &self.housing {
+            return Suspension::new(housing, self.circuit, self.gain, rate).hear(velocity);
+        }
         let Some(Circuit { resistance, inductance, .. }) = self.circuit else {
             return velocity.iter().map(|v| self.gain * v).collect();
         };
@@ -84,8 +107,8 @@ impl Sensor {
     }
 
     /// The velocities (m/s) under the contact, computed back from sensor signals at `rate` samples per second whose frequencies reach
-    /// `top` (Hz), at most 0.42 of the rate. Signals may be cut off at their ends; they are not taken as zero beyond. `None` for a patch,
-    /// which senses the sheet's bending.
+    /// `top` (Hz), at most 0.42 of the rate. Signals may be cut off at their ends; they are not taken as zero beyond. `None` for a patch
+    /// or an exciter ([`Sensor::tells_velocity`]).
     pub fn velocities(&self, heard: &[Vec<f64>], rate: f64, top: f64) -> Option<Vec<Vec<f64>>> {
         if !self.tells_velocity() {
             return None;
@@ -154,6 +177,20 @@ mod tests {
         })
     }
 
+    /// A housing of 20 g that resonates at 200 Hz.
+    fn exciter(inductance: f64, driven_by: CoilDrive) -> Sensor {
+        sensor(ActuatorKind::Exciter {
+            force_constant: 2.0,
+            resistance: 6.0,
+            inductance,
+            moving_mass: 1e-3,
+            housing_mass: 0.02,
+            resonance: 200.0,
+            quality_factor: 4.0,
+            driven_by,
+        })
+    }
+
     #[test]
     fn each_kind_hears_in_the_unit_that_its_drive_makes_power_with() {
         let patch =
@@ -166,6 +203,53 @@ mod tests {
         ];
         assert_eq!(found.map(|sensor| sensor.unit), ["m/s", "V", "A", "A"]);
         assert!(patch.velocities(&[vec![1.0]], 48e3, 3e3).is_none());
+        let found = [exciter(2e-3, CoilDrive::Current), exciter(2e-3, CoilDrive::Voltage)];
+        assert!(found.iter().all(|sensor| sensor.velocities(&[vec![1.0]], 48e3, 3e3).is_none()));
+        assert_eq!(found.map(|sensor| sensor.unit), ["V", "A"]);
+    }
+
+    /// Against the equations of coil and housing solved by hand at one frequency.
+    #[test]
+    fn an_exciter_hears_what_moves_against_its_housing() {
+        let (bl, resistance, mass, rate) = (2.0, 6.0, 0.02, 48e3);
+        let (omega, quality) = (TAU * 200.0, 4.0);
+        for (inductance, driven_by) in [
+            (1e-4, CoilDrive::Current),
+            (0.0, CoilDrive::Voltage),
+            (2e-5, CoilDrive::Voltage),
+            (2e-3, CoilDrive::Voltage),
+        ] {
+            let sensor = exciter(inductance, driven_by);
+            for hz in [50.0, 200.0, 1000.0] {
+                let tone = |i: usize| TAU * hz * i as f64 / rate;
+                let velocity: Vec<f64> = (0..12_000).map(|i| tone(i).cos()).collect();
+                let heard = sensor.hear(&velocity, rate);
+                let s = c64::new(0.0, TAU * hz);
+                let closed = s * inductance + resistance;
+                // M s u = (c + k/s)(v - u) + bl j, with the current j = bl (v - u)/(R + Ls) if the coil is closed.
+                let coil = match driven_by {
+                    CoilDrive::Current => c64::new(0.0, 0.0),
+                    CoilDrive::Voltage => c64::new(bl * bl, 0.0) / closed,
+                };
+                let held = s.inv() * (mass * omega * omega) + mass * omega / quality + coil;
+                let apart = (held / (s * mass) + 1.0).inv();
+                let factor = match driven_by {
+                    CoilDrive::Current => apart * bl,
+                    CoilDrive::Voltage => apart * bl / closed,
+                };
+                assert!(
+                    (sensor.per_velocity(s) - factor).norm() < 1e-12 * factor.norm(),
+                    "{inductance} {hz}"
+                );
+                // A line between samples is off by (ω dt)²/12 at most, in v and in u alike.
+                let size = (factor / apart).norm() * (apart.norm() + (apart - 1.0).norm());
+                let most = (TAU * hz / rate).powi(2) / 10.0 * size;
+                for i in 8000..12_000 {
+                    let exact = (factor * c64::new(0.0, tone(i)).exp()).re;
+                    assert!((heard[i] - exact).abs() < most, "{inductance} {hz}: {i}");
+                }
+            }
+        }
     }
 
     #[test]

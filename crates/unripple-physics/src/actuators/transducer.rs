@@ -1,6 +1,7 @@
 //! An actuator as a force on the sheet.
 
-use crate::{Footprint, Load};
+use crate::{Circuit, Footprint, Load};
+use unripple_core::CoilDrive;
 
 /// How the drive of an actuator acts: directly as a force, or as the voltage of a coil.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +27,17 @@ pub struct Transducer {
     pub load: Option<Load>,
     /// Unit of the drive: N, A or V.
     pub unit: &'static str,
+}
+
+impl Entry {
+    /// How the drive of a coil acts, its unit, and the circuit that loads the sheet: with a current source the electromotive force
+    /// drives no current, so that there is none.
+    pub(super) fn of_coil(driven_by: CoilDrive, circuit: Circuit) -> (Self, &'static str, Option<Circuit>) {
+        match driven_by {
+            CoilDrive::Current => (Self::Force, "A", None),
+            CoilDrive::Voltage => (Self::Voltage, "V", Some(circuit)),
+        }
+    }
 }
 
 impl Transducer {

@@ -7,6 +7,9 @@ mod coupled_convergence;
 mod coupled_oracle;
 mod coupled_property;
 mod design_oracle;
+#[path = "../exciter_common/mod.rs"]
+mod exciter_common;
+mod exciter_oracle;
 mod finger_oracle;
 #[path = "../../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;

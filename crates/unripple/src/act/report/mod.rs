@@ -158,7 +158,12 @@ impl Report {
 pub fn unit(kind: &ActuatorKind) -> &'static str {
     match kind {
         ActuatorKind::Force => "N",
-        ActuatorKind::MovingMagnet { driven_by: CoilDrive::Current, .. } => "A",
-        ActuatorKind::MovingMagnet { driven_by: CoilDrive::Voltage, .. } | ActuatorKind::Piezo { .. } => "V",
+        ActuatorKind::Piezo { .. } => "V",
+        ActuatorKind::MovingMagnet { driven_by, .. } | ActuatorKind::Exciter { driven_by, .. } => {
+            match driven_by {
+                CoilDrive::Current => "A",
+                CoilDrive::Voltage => "V",
+            }
+        }
     }
 }
