@@ -21,6 +21,7 @@ pub(crate) mod reader;
 mod ring;
 mod scatterer;
 mod sheet;
+mod suspension;
 mod write;
 
 pub use write::to_toml;

@@ -5,6 +5,7 @@ use super::place::Ground;
 use super::places::{self, MOST_ACTUATORS, PLACE_KEYS, Places};
 use super::range::of;
 use super::reader::{Faults, LONGEST_LINE, Section};
+use super::suspension::{self, SUSPENSION_KEYS, Suspension};
 use std::collections::HashMap;
 use std::ops::Range;
 use unripple_core::{Actuator, ActuatorKind, CoilDrive, Point};
@@ -12,10 +13,10 @@ use unripple_core::{Actuator, ActuatorKind, CoilDrive, Point};
 /// Name of the table with values for the keys that tables `[[actuator]]` leave out.
 pub(super) const DEFAULTS: &str = "actuator_defaults";
 
-/// Keys of the table `[[actuator]]`: of all kinds, of those that press on a disc, and of a moving magnet.
+/// Keys of the table `[[actuator]]`: of all kinds, of those that press on a disc, and of those with a coil.
 const COMMON_KEYS: [&str; 2] = ["name", "kind"];
 const PAD_KEY: &str = "contact_radius_mm";
-const MAGNET_KEYS: [&str; 5] =
+const COIL_KEYS: [&str; 5] =
     ["force_constant_n_per_a", "resistance_ohm", "inductance_mh", "moving_mass_mg", "driven_by"];
 
 /// What an amplifier may keep to the signal, current or voltage, by its name in files.
@@ -26,12 +27,17 @@ pub(super) const COIL_DRIVES: [(&str, CoilDrive); 2] =
 enum Kind {
     Force,
     MovingMagnet,
+    Exciter,
     Piezo,
 }
 
 /// The kinds of actuators, by their names in files.
-const KINDS: [(&str, Kind); 3] =
-    [("force", Kind::Force), ("moving-magnet", Kind::MovingMagnet), ("piezo", Kind::Piezo)];
+const KINDS: [(&str, Kind); 4] = [
+    ("force", Kind::Force),
+    ("moving-magnet", Kind::MovingMagnet),
+    ("exciter", Kind::Exciter),
+    ("piezo", Kind::Piezo),
+];
 
 /// The sheet under the actuators: its outline, and its thickness in metres at a point of it.
 pub(super) struct Base<'b> {
@@ -89,7 +95,7 @@ pub(super) fn read(root: &Section, base: &Base, faults: &mut Faults) -> Option<V
 
 /// Refuses keys that no actuator has, and those that are of one actuator alone.
 fn check_defaults(defaults: &Section, faults: &mut Faults) {
-    let known = [&["kind", PAD_KEY], &MAGNET_KEYS[..], &PIEZO_KEYS].concat();
+    let known = [&["kind", PAD_KEY], &COIL_KEYS[..], &SUSPENSION_KEYS, &PIEZO_KEYS].concat();
     let own = |key: &str| {
         let own = key == "name" || PLACE_KEYS.contains(&key);
         own.then(|| "this key in a table [[actuator]], since it is of one actuator alone".into())
@@ -143,12 +149,15 @@ fn one(
 ) -> Option<Actuator> {
     let kind = kind?;
     let pad = match kind {
-        Kind::Force | Kind::MovingMagnet => section.number_or(PAD_KEY, 0.0, &of::PAD_RADIUS, faults),
+        Kind::Force | Kind::MovingMagnet | Kind::Exciter => {
+            section.number_or(PAD_KEY, 0.0, &of::PAD_RADIUS, faults)
+        }
         Kind::Piezo => Some(0.0),
     };
     let kind = match kind {
         Kind::Force => Some(ActuatorKind::Force),
         Kind::MovingMagnet => magnet(section, faults),
+        Kind::Exciter => exciter(section, faults),
         Kind::Piezo => {
             let place = base.ground.map(Ground::outline).zip(at);
             piezo::read(section, &Spot { thickness: at.and_then(base.thickness), place }, faults)
@@ -160,13 +169,17 @@ fn one(
 fn check_keys(section: &Section, kind: Option<Kind>, faults: &mut Faults) {
     let keys: Vec<&str> = match kind {
         Some(Kind::Force) => vec![PAD_KEY],
-        Some(Kind::MovingMagnet) => [&[PAD_KEY], &MAGNET_KEYS[..]].concat(),
+        Some(Kind::MovingMagnet) => [&[PAD_KEY], &COIL_KEYS[..]].concat(),
+        Some(Kind::Exciter) => [&[PAD_KEY], &COIL_KEYS[..], &SUSPENSION_KEYS].concat(),
         Some(Kind::Piezo) => PIEZO_KEYS.to_vec(),
-        None => [&[PAD_KEY], &MAGNET_KEYS[..], &PIEZO_KEYS[..]].concat(),
+        None => [&[PAD_KEY], &COIL_KEYS[..], &SUSPENSION_KEYS, &PIEZO_KEYS].concat(),
     };
     let elsewhere = |key: &str| match key {
-        PAD_KEY => Some("this key only where kind = \"force\" or \"moving-magnet\"".into()),
-        key if MAGNET_KEYS.contains(&key) => Some("this key only where kind = \"moving-magnet\"".into()),
+        PAD_KEY => Some("this key only where kind = \"force\" or \"moving-magnet\" or \"exciter\"".into()),
+        key if COIL_KEYS.contains(&key) => {
+            Some("this key only where kind = \"moving-magnet\" or \"exciter\"".into())
+        }
+        key if SUSPENSION_KEYS.contains(&key) => Some("this key only where kind = \"exciter\"".into()),
         key if PIEZO_KEYS.contains(&key) => Some("this key only where kind = \"piezo\"".into()),
         _ => None,
     };
@@ -232,17 +245,48 @@ impl Names {
     }
 }
 
-fn magnet(section: &Section, faults: &mut Faults) -> Option<ActuatorKind> {
-    let force_constant = section.number(MAGNET_KEYS[0], &of::FORCE_CONSTANT, faults);
-    let resistance = section.number(MAGNET_KEYS[1], &of::RESISTANCE, faults);
-    let inductance = section.number_or(MAGNET_KEYS[2], 0.0, &of::INDUCTANCE, faults);
-    let moving_mass = section.number_or(MAGNET_KEYS[3], 0.0, &of::MOVING_MASS, faults);
-    let driven_by = section.choice_or(MAGNET_KEYS[4], CoilDrive::Current, &COIL_DRIVES, faults);
-    Some(ActuatorKind::MovingMagnet {
+/// A coil, and the mass that moves with the sheet.
+struct Coil {
+    force_constant: f64,
+    resistance: f64,
+    inductance: f64,
+    moving_mass: f64,
+    driven_by: CoilDrive,
+}
+
+fn coil(section: &Section, faults: &mut Faults) -> Option<Coil> {
+    let force_constant = section.number(COIL_KEYS[0], &of::FORCE_CONSTANT, faults);
+    let resistance = section.number(COIL_KEYS[1], &of::RESISTANCE, faults);
+    let inductance = section.number_or(COIL_KEYS[2], 0.0, &of::INDUCTANCE, faults);
+    let moving_mass = section.number_or(COIL_KEYS[3], 0.0, &of::MOVING_MASS, faults);
+    let driven_by = section.choice_or(COIL_KEYS[4], CoilDrive::Current, &COIL_DRIVES, faults);
+    Some(Coil {
         force_constant: force_constant?,
         resistance: resistance?,
         inductance: inductance?,
         moving_mass: moving_mass?,
         driven_by: driven_by?,
+    })
+}
+
+fn magnet(section: &Section, faults: &mut Faults) -> Option<ActuatorKind> {
+    let Coil { force_constant, resistance, inductance, moving_mass, driven_by } = coil(section, faults)?;
+    Some(ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by })
+}
+
+fn exciter(section: &Section, faults: &mut Faults) -> Option<ActuatorKind> {
+    // Both are read before either is missed, for the faults of both.
+    let (coil, suspension) = (coil(section, faults), suspension::read(section, faults));
+    let Coil { force_constant, resistance, inductance, moving_mass, driven_by } = coil?;
+    let Suspension { housing_mass, resonance, quality_factor } = suspension?;
+    Some(ActuatorKind::Exciter {
+        force_constant,
+        resistance,
+        inductance,
+        moving_mass,
+        housing_mass,
+        resonance,
+        quality_factor,
+        driven_by,
     })
 }

@@ -102,6 +102,10 @@ pub(crate) mod of {
     pub(crate) const RESISTANCE: Limits = Limits::new("Ω", 0, 1e-3, 1e6);
     pub(crate) const INDUCTANCE: Limits = Limits::new("mH", -3, 0.0, 1000.0);
     pub(crate) const MOVING_MASS: Limits = Limits::new("mg", -6, 0.0, 1e6);
+    pub(crate) const HOUSING_MASS: Limits = Limits::new("g", -3, 0.01, 1e5);
+    pub(crate) const RESONANCE: Limits = Limits::new("Hz", 0, 1.0, 1e5);
+    pub(crate) const SPRING: Limits = Limits::new("N/mm", 3, 1e-4, 1e5);
+    pub(crate) const QUALITY_FACTOR: Limits = Limits::new("", 0, 0.1, 1000.0);
     pub(crate) const PAD_RADIUS: Limits = Limits::new("mm", -3, 0.0, 100.0);
     pub(crate) const PATCH_RADIUS: Limits = Limits::new("mm", -3, 0.1, 100.0);
     pub(crate) const PATCH_SIDE: Limits = Limits::new("mm", -3, 0.1, 1000.0);

@@ -9,8 +9,8 @@ use crate::decimal::text;
 use crate::degrees;
 use crate::lines::{Lines, list, named, point, quoted};
 use unripple_core::{
-    Actuator, ActuatorKind, Decay, Emission, Finger, Patch, Profile, Scatterer, ScattererKind, Sheet,
-    Surface, Uneven,
+    Actuator, ActuatorKind, CoilDrive, Decay, Emission, Finger, Patch, Profile, Scatterer, ScattererKind,
+    Sheet, Surface, Uneven,
 };
 
 /// A surface as a file in format 1. [`crate::parse_surface`] makes the same surface of it, bit for bit, provided the
@@ -127,11 +127,22 @@ fn actuator(actuator: &Actuator, out: &mut Lines) {
     match &actuator.kind {
         ActuatorKind::Force => {}
         ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by } => {
-            out.line("force_constant_n_per_a", &text(*force_constant, 0));
-            out.line("resistance_ohm", &text(*resistance, 0));
-            out.line("inductance_mh", &text(*inductance, 3));
-            out.line("moving_mass_mg", &text(*moving_mass, 6));
-            out.line("driven_by", &named(&COIL_DRIVES, driven_by));
+            coil([force_constant, resistance, inductance, moving_mass], driven_by, out);
+        }
+        ActuatorKind::Exciter {
+            force_constant,
+            resistance,
+            inductance,
+            moving_mass,
+            housing_mass,
+            resonance,
+            quality_factor,
+            driven_by,
+        } => {
+            coil([force_constant, resistance, inductance, moving_mass], driven_by, out);
+            out.line("housing_g", &text(*housing_mass, 3));
+            out.line("resonance_hz", &text(*resonance, 0));
+            out.line("quality_factor", &text(*quality_factor, 0));
         }
         ActuatorKind::Piezo { patch, moment, mass } => {
             match patch {
@@ -147,4 +158,16 @@ fn actuator(actuator: &Actuator, out: &mut Lines) {
             out.line("patch_mass_mg", &text(*mass, 6));
         }
     }
+}
+
+fn coil(
+    [force_constant, resistance, inductance, moving_mass]: [&f64; 4],
+    driven_by: &CoilDrive,
+    out: &mut Lines,
+) {
+    out.line("force_constant_n_per_a", &text(*force_constant, 0));
+    out.line("resistance_ohm", &text(*resistance, 0));
+    out.line("inductance_mh", &text(*inductance, 3));
+    out.line("moving_mass_mg", &text(*moving_mass, 6));
+    out.line("driven_by", &named(&COIL_DRIVES, driven_by));
 }

@@ -204,7 +204,11 @@ fn within(patch: Patch, room: f64) -> Option<Patch> {
 }
 
 fn kind() -> impl Strategy<Value = ActuatorKind> {
-    let driven_by = prop_oneof![Just(CoilDrive::Current), Just(CoilDrive::Voltage)];
+    let coil = || {
+        let driven_by = prop_oneof![Just(CoilDrive::Current), Just(CoilDrive::Voltage)];
+        (1e-3..1e3_f64, 1e-3..1e6_f64, 0.0..1.0_f64, 0.0..1.0_f64, driven_by)
+    };
+    let housing = (1e-5..100.0_f64, 1.0..1e5_f64, 0.1..1e3_f64);
     prop_oneof![
         Just(ActuatorKind::Force),
         (patch(), -1e5..1e5_f64, 0.0..10.0_f64).prop_map(|(patch, moment, mass)| ActuatorKind::Piezo {
@@ -212,15 +216,22 @@ fn kind() -> impl Strategy<Value = ActuatorKind> {
             moment,
             mass
         }),
-        (1e-3..1e3_f64, 1e-3..1e6_f64, 0.0..1.0_f64, 0.0..1.0_f64, driven_by).prop_map(
-            |(force_constant, resistance, inductance, moving_mass, driven_by)| ActuatorKind::MovingMagnet {
+        (coil(), housing).prop_map(|(coil, (housing_mass, resonance, quality_factor))| {
+            let (force_constant, resistance, inductance, moving_mass, driven_by) = coil;
+            ActuatorKind::Exciter {
                 force_constant,
                 resistance,
                 inductance,
                 moving_mass,
+                housing_mass,
+                resonance,
+                quality_factor,
                 driven_by,
             }
-        ),
+        }),
+        coil().prop_map(|(force_constant, resistance, inductance, moving_mass, driven_by)| {
+            ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by }
+        }),
     ]
 }
 

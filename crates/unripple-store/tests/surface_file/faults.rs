@@ -307,7 +307,7 @@ fn actuator_names() {
 fn actuator_kinds() {
     assert_eq!(fault("\"force\"", "\"moving_magnet\"").nearest.as_deref(), Some("\"moving-magnet\""));
     let key = fault("kind = \"force\"", "kind = \"force\"\nresistance_ohm = 6.2");
-    assert_eq!(key.expected, "this key only where kind = \"moving-magnet\"");
+    assert_eq!(key.expected, "this key only where kind = \"moving-magnet\" or \"exciter\"");
     let list = faults(&GOOD.replace("\"force\"", "\"moving-magnet\"\nresistance_ohm = 0"));
     let keys: Vec<&str> = list.iter().map(|f| f.key.as_str()).collect();
     assert_eq!(keys, ["actuator[0].force_constant_n_per_a", "actuator[0].resistance_ohm"]);
@@ -370,7 +370,7 @@ fn as_json() {
             "file": "film.toml",
             "faults": [{
                 "key": "actuator[0].kind", "line": 18, "column": 8, "found": "\"forse\"",
-                "expected": "\"force\" or \"moving-magnet\" or \"piezo\"", "nearest": "\"force\"",
+                "expected": "\"force\" or \"moving-magnet\" or \"exciter\" or \"piezo\"", "nearest": "\"force\"",
             }],
             "omitted": 0,
         })

@@ -1,6 +1,7 @@
 //! The surface file: what it means, the way back to a file, and its faults.
 
 mod arrays;
+mod exciters;
 mod faults;
 mod good;
 mod layers;
