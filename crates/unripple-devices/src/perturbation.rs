@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use unripple_core::{Decay, OutOfRange, Point, Profile, Random, Scatterer, ScattererKind, Surface, require};
 use unripple_physics::stepper::{Channel, Plant, StepperOptions, VirtualSurface};
-use unripple_physics::{Entry, Medium, Modes, PhysicsError, transducers};
+use unripple_physics::{Entry, Medium, Modes, PhysicsError, Transducer, transducers};
 
 /// Nodes of the profile of tension along each side: waves no shorter than a side are drawn by eight steps. More would
 /// change the profile little.
@@ -256,12 +256,13 @@ impl Truth {
     /// The signal, of which `snr_db` gives the ratio, is that of one actuator that sweeps the band at the drive limit L: white of
     /// variance L²/2 over the band B, of which a mode passes L²/(2B) · (w_a w_i)²/(8σ), by Parseval's theorem and ∫h² = w²/(4σ). It is
     /// averaged over actuators and sensors; for the probe over places, where the mean of φ² is one over the sheet's mass. Modes that
-    /// overlap count as if they did not. With coils driven by a voltage, which damp the sheet, sweeps of single actuators are simulated
-    /// instead.
+    /// overlap count as if they did not. With coils driven by a voltage, which damp the sheet, or exciters, whose housings follow it below
+    /// their resonance, sweeps of single actuators are simulated instead.
     pub fn noise(&self, modes: &Arc<Modes>) -> (f64, f64) {
         let surface = &self.surface;
         let Ok(actuators) = transducers(surface) else { return (0.0, 0.0) };
-        if actuators.iter().any(|t| t.entry == Entry::Voltage) {
+        let housed = |t: &Transducer| t.load.as_ref().is_some_and(|load| load.housing.is_some());
+        if actuators.iter().any(|t| t.entry == Entry::Voltage || housed(t)) {
             return self.swept(modes).unwrap_or_default();
         }
         let weights: Vec<Vec<f64>> = actuators

@@ -32,7 +32,7 @@ pub fn sensing(surface: &Surface) -> Result<Vec<Sensor>, TaskError> {
 }
 
 /// Converts a sensor's responses to velocities (m/s) under its contact; `heard` holds one response after the other, `plan.samples` samples
-/// each. `None` for a patch, which senses the sheet's bending, not its velocity.
+/// each. `None` for a patch, which senses the sheet's bending, and for an exciter, which hardly senses motion below its resonance.
 pub fn velocities(sensor: &Sensor, heard: &[f32], plan: &LibraryPlan, surface: &Surface) -> Option<Vec<f32>> {
     let rows = heard.chunks_exact(plan.samples);
     let rows: Vec<Vec<f64>> = rows.map(|row| row.iter().map(|h| f64::from(*h)).collect()).collect();
@@ -42,8 +42,8 @@ pub fn velocities(sensor: &Sensor, heard: &[f32], plan: &LibraryPlan, surface: &
     Some(rows.into_iter().flatten().map(|v| v as f32).collect())
 }
 
-/// The responses of a library as velocities at all points. An own point is left out if its sensor is a patch, and all own points if the
-/// sensors' scale differs from the probe's: figures over all points would mix quantities.
+/// The responses of a library as velocities at all points. An own point is left out if its sensor is a patch or an exciter, and all own
+/// points if the sensors' scale differs from the probe's: figures over all points would mix quantities.
 pub fn as_velocities(
     library: &Library,
     surface: &Surface,

@@ -156,7 +156,8 @@ impl Tracker {
     ///
     /// # Errors
     /// Those of [`Tracker::with_sensors`]; [`CalibrateError::Unsolvable`] for coils driven by a voltage that have an inductance, whose
-    /// signals are filtered by their circuits; [`CalibrateError::Physics`] for actuators that are not valid.
+    /// signals are filtered by their circuits, and for exciters, whose signals are filtered by their housings;
+    /// [`CalibrateError::Physics`] for actuators that are not valid.
     pub fn of_surface(
         surface: &Surface,
         responses: &ModalResponses,
@@ -164,14 +165,16 @@ impl Tracker {
         options: &Tracking,
     ) -> Result<Self, CalibrateError> {
         let all = sensors(surface)?;
-        let gains = all.iter().map(|sensor| match sensor.circuit {
-            None => Ok(sensor.gain),
-            Some(circuit) if circuit.inductance == 0.0 => Ok(sensor.gain / circuit.resistance),
-            Some(_) => Err(CalibrateError::Unsolvable {
-                what: "tension",
-                expected: "sensors that follow the sheet without delay: forces, patches, coils on a current",
-                found: "coils on a voltage with an inductance".into(),
-            }),
+        let refused = |found: &str| CalibrateError::Unsolvable {
+            what: "tension",
+            expected: "sensors that follow the sheet without delay: forces, patches, coils on a current",
+            found: found.into(),
+        };
+        let gains = all.iter().map(|sensor| match (sensor.housing, sensor.circuit) {
+            (Some(_), _) => Err(refused("exciters, whose housings move")),
+            (None, None) => Ok(sensor.gain),
+            (None, Some(circuit)) if circuit.inductance == 0.0 => Ok(sensor.gain / circuit.resistance),
+            (None, Some(_)) => Err(refused("coils on a voltage with an inductance")),
         });
         let gains = gains.collect::<Result<Vec<f64>, _>>()?;
         let felt = sensed(&all, responses);

@@ -32,7 +32,7 @@ pub(super) struct Basis {
     pub waves: Vec<[u32; 2]>,
     /// The actuators, and their nominal places.
     pub transducers: Vec<(Transducer, Point)>,
-    /// Circuits of the actuators, for coils on a voltage with an inductance; `None` for all others.
+    /// The actuators that depend on frequency: exciters, and coils on a voltage with an inductance; `None` for all others.
     pub coils: Vec<Option<Coil>>,
     /// Outline of the sheet.
     pub outline: Outline,
@@ -87,7 +87,7 @@ impl Basis {
     }
 
     /// Natural logarithms of the actuators' nominal gains (force per unit of drive), the same as drives and as sensors; for a coil
-    /// driven by a voltage, that of its resistance alone.
+    /// driven by a voltage, that of its resistance alone, and for an exciter that of a housing that stands still.
     pub fn gains(&self) -> Vec<f64> {
         let gain = |(t, _): &(Transducer, Point)| match (t.entry, t.load.as_ref().and_then(|l| l.circuit)) {
             (Entry::Voltage, Some(coil)) => t.gain / coil.resistance,
@@ -96,7 +96,7 @@ impl Basis {
         self.transducers.iter().map(|t| gain(t).abs().max(f64::MIN_POSITIVE).ln()).collect()
     }
 
-    /// The circuit of an actuator, if it is a coil on a voltage; stray loads have none.
+    /// The coil of an actuator, if it depends on frequency; stray loads have none.
     pub fn coil(&self, number: usize) -> Option<&Coil> {
         self.coils.get(number).and_then(Option::as_ref)
     }

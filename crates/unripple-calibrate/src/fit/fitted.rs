@@ -240,7 +240,7 @@ impl Fitted {
     }
 
     /// Responses of the fitted surface at any place, per unit of each actuator's drive. Coils driven by a voltage count as without
-    /// inductance; [`Fitted::sampled`] includes it.
+    /// inductance, and exciters as driving against a housing that stands still; [`Fitted::sampled`] includes both.
     pub fn responses(&self) -> Responses {
         Responses::Modal(self.responses.clone())
     }
@@ -279,7 +279,7 @@ impl Fitted {
         self.reached.as_ref()
     }
 
-    /// The circuit of an actuator that is a coil driven by a voltage; `None` for others.
+    /// The coil of an actuator that depends on frequency: of an exciter, or on a voltage with an inductance; `None` for others.
     pub(crate) fn coil(&self, actuator: usize) -> Option<&Coil> {
         self.coils.get(actuator).and_then(Option::as_ref)
     }

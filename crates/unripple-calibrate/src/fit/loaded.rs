@@ -49,8 +49,9 @@ impl Shapes for Combined {
 
 impl LoadedModes {
     /// Modes within `band` (Hz): eigenvectors of the stiffness K with the mass 1 + Σ μ b bᵀ, where μ is the mass of a load and b holds the
-    /// modes' values at it. At each load one more coordinate stands for the modes that are left out. Dampers, and the inductances of coils,
-    /// are added to each mode in first order, as is right for light ones; negative masses count as zero.
+    /// modes' values at it. At each load one more coordinate stands for the modes that are left out. Dampers, the inductances of coils
+    /// and the housings of exciters are added to each mode in first order, as is right for light ones, and for housings whose resonance
+    /// is below the modes; negative masses count as zero.
     pub fn new(
         basis: &Basis,
         system: &System,

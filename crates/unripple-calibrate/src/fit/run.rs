@@ -250,7 +250,9 @@ fn nominal_values(surface: &Surface, basis: &Basis, layout: &Layout, top: f64) -
             eta * medium.bending_share(medium.wavenumber(omega)) * omega / 2.0
         }
     };
-    let coil = |t: &Transducer| t.load.as_ref().and_then(|load| load.circuit);
+    // The damping by the coil of an exciter is part of the impedance of its housing.
+    let coil =
+        |t: &Transducer| t.load.as_ref().filter(|load| load.housing.is_none()).and_then(|load| load.circuit);
     let gains = basis.gains();
     let mass = |(t, _): &(Transducer, Point)| t.load.as_ref().map_or(0.0, |load| load.mass);
     let resistance = |(t, _): &(Transducer, Point)| {

@@ -44,7 +44,7 @@ pub(super) struct System {
     pub masses: Vec<f64>,
     /// Damping to the ground at each actuator and stray mass, in N·s/m.
     pub resistances: Vec<f64>,
-    /// Circuit of each actuator and stray mass; `None` where there is none.
+    /// Coil of each actuator and stray mass that depends on frequency; `None` for all others.
     pub coils: Vec<Option<Coil>>,
     /// The band's top, in Hz.
     pub top: f64,

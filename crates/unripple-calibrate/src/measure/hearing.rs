@@ -44,11 +44,12 @@ impl Hearing {
         self.model.poles.iter().map(|pole| [pole.omega / std::f64::consts::TAU, pole.sigma])
     }
 
-    /// Whether every oscillation that an actuator senses is in phase with that actuator's own drive: no circuits between, and no damping
-    /// that couples modes ([`Onset::Velocity`] throughout). Coils driven by a voltage couple modes strongly; masses that do not
-    /// dissipate, on a sheet that does, couple them a little.
+    /// Whether every oscillation that an actuator senses is in phase with that actuator's own drive: no circuits and no housings between,
+    /// and no damping that couples modes ([`Onset::Velocity`] throughout). Coils driven by a voltage couple modes strongly; masses that
+    /// do not dissipate, on a sheet that does, couple them a little.
     pub fn in_step(&self) -> bool {
-        !self.closed() && self.model.poles.iter().all(|pole| pole.onset == Onset::Velocity)
+        let housed = self.sensors.iter().any(|sensor| sensor.housing.is_some());
+        !self.closed() && !housed && self.model.poles.iter().all(|pole| pole.onset == Onset::Velocity)
     }
 
     /// Whether any actuator is a coil driven by a voltage.

@@ -164,7 +164,8 @@ impl Quick {
         if frequencies.len() < LINES {
             return Err(format!("responses are too short to tell modes apart: {} lines", frequencies.len()));
         }
-        // The model has coils without inductance: the effect of their circuits on drives and sensors is removed from the spectra.
+        // The model has coils without inductance, and exciters whose housings stand still: the effect of circuits and housings on drives
+        // and sensors is removed from the spectra.
         let through = |n: usize, row: &mut Vec<c64>| {
             row.iter_mut().zip(&frequencies).for_each(|(y, s)| *y /= lag(fitted.coil(n), *s));
         };

@@ -39,6 +39,8 @@ fn kinds(top: f64, on_glass: f64) -> Vec<(&'static str, Surface, Point, f64)> {
         film("voltage, 1.9 mH", all(coil(0.5, 1.9e-3, 0.0, Voltage))),
         film("voltage, 1.9 mH, 7 mg", all(coil(0.5, 1.9e-3, 7e-6, Voltage))),
         film("voltage, 1.9 mH, 6 N/A", all(coil(6.0, 1.9e-3, 7e-6, Voltage))),
+        film("exciter on a current", all(exciter(Current))),
+        film("exciter on a voltage", all(exciter(Voltage))),
         film("all kinds on one film", kinds_bench::film(top, mixed)),
         glass("patch", kinds_bench::glass(on_glass, 0.0)),
         glass("patch, 300 mg", kinds_bench::glass(on_glass, 300e-6)),
