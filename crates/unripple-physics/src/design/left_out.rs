@@ -1,4 +1,5 @@
-//! What the closed forms of a design leave out on a surface: masses, coils, patches and contacts of its actuators, an uneven sheet.
+//! What the closed forms of a design leave out on a surface: masses, coils, housings, patches and contacts of its actuators, an uneven
+//! sheet.
 
 use super::Note;
 use super::digits::rounded;
@@ -9,7 +10,14 @@ use unripple_core::{Actuator, ActuatorKind, CoilDrive, Surface};
 /// uniform sheet, of which nothing is left out.
 pub(super) fn left_out(ground: &Ground<'_>) -> Option<Note> {
     let surface = ground.surface;
-    let parts = [masses(surface), coils(surface), patches(surface), contacts(surface), uneven(surface)];
+    let parts = [
+        masses(surface),
+        coils(surface),
+        housings(surface),
+        patches(surface),
+        contacts(surface),
+        uneven(surface),
+    ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     if parts.is_empty() {
         return None;
@@ -34,7 +42,9 @@ pub(super) fn left_out(ground: &Ground<'_>) -> Option<Note> {
 fn masses(surface: &Surface) -> Option<String> {
     let mass = |actuator: &Actuator| match actuator.kind {
         ActuatorKind::Force => 0.0,
-        ActuatorKind::MovingMagnet { moving_mass, .. } => moving_mass,
+        ActuatorKind::MovingMagnet { moving_mass, .. } | ActuatorKind::Exciter { moving_mass, .. } => {
+            moving_mass
+        }
         ActuatorKind::Piezo { mass, .. } => mass,
     };
     let found = all(surface, mass);
@@ -45,6 +55,13 @@ fn masses(surface: &Surface) -> Option<String> {
 fn coils(surface: &Surface) -> Option<String> {
     let held = |actuator: &Actuator| match actuator.kind {
         ActuatorKind::MovingMagnet {
+            force_constant,
+            resistance,
+            inductance,
+            driven_by: CoilDrive::Voltage,
+            ..
+        }
+        | ActuatorKind::Exciter {
             force_constant,
             resistance,
             inductance,
@@ -65,6 +82,17 @@ fn coils(surface: &Surface) -> Option<String> {
     Some(format!("{text} of coils driven by a voltage ({})", actuators(&damping)))
 }
 
+/// Housings of exciters, of which a closed form knows neither the resonance nor the mass.
+fn housings(surface: &Surface) -> Option<String> {
+    let found = all(surface, |actuator| match actuator.kind {
+        ActuatorKind::Exciter { resonance, .. } => resonance,
+        _ => 0.0,
+    });
+    (!found.is_empty()).then(|| {
+        format!("housings on springs that resonate at {} Hz ({})", range(&found, 1.0), actuators(&found))
+    })
+}
+
 /// Patches, which bend the sheet instead of pushing it.
 fn patches(surface: &Surface) -> Option<String> {
     let found =
@@ -75,7 +103,9 @@ fn patches(surface: &Surface) -> Option<String> {
 /// Discs over which forces are spread, so that short waves are driven less.
 fn contacts(surface: &Surface) -> Option<String> {
     let radius = |actuator: &Actuator| match actuator.kind {
-        ActuatorKind::Force | ActuatorKind::MovingMagnet { .. } => actuator.contact_radius,
+        ActuatorKind::Force | ActuatorKind::MovingMagnet { .. } | ActuatorKind::Exciter { .. } => {
+            actuator.contact_radius
+        }
         ActuatorKind::Piezo { .. } => 0.0,
     };
     let found = all(surface, radius);

@@ -28,7 +28,11 @@ impl CoilHeat {
         let mut heat = Self { total_w: 0.0, largest_w: 0.0, at_most: false };
         let mut coils = 0;
         for (actuator, channel) in surface.actuators.iter().zip(drive.channels()) {
-            let ActuatorKind::MovingMagnet { resistance, driven_by, .. } = actuator.kind else { continue };
+            let (ActuatorKind::MovingMagnet { resistance, driven_by, .. }
+            | ActuatorKind::Exciter { resistance, driven_by, .. }) = actuator.kind
+            else {
+                continue;
+            };
             let own = match driven_by {
                 CoilDrive::Current => mean_square(channel) * resistance,
                 CoilDrive::Voltage => mean_square(channel) / resistance,
