@@ -81,7 +81,8 @@ impl Bin {
 }
 
 impl Cavity {
-    /// The statistics of a surface in a band that ends at `top_hz` (Hz), from Weyl's law.
+    /// The statistics of a surface in a band that ends at `top_hz` (Hz), from Weyl's law, without its term of the rim where that leaves no
+    /// mode.
     pub fn of(surface: &Surface, top_hz: f64) -> Self {
         let medium = Medium::of(&surface.sheet);
         let [low_hz, _] = surface.emission.band;
@@ -89,7 +90,10 @@ impl Cavity {
         let last = medium.wavenumber(TAU * top_hz);
         let width = (last - first) / BINS as f64;
         let outline = &surface.outline;
-        let (area, perimeter, rim) = (outline.area(), outline.perimeter(), signed_perimeter(outline));
+        let (area, perimeter) = (outline.area(), outline.perimeter());
+        // Of a sheet of few wavelengths the term of the rim can leave no mode at all, though it has some: that of the area is left then,
+        // and an exact count scales it.
+        let rim = Some(signed_perimeter(outline)).filter(|rim| weyl(area, *rim, last) > 0.0).unwrap_or(0.0);
         let bins = (0..BINS)
             .map(|i| {
                 let k = first + (i as f64 + 0.5) * width;

@@ -50,11 +50,14 @@ impl<'a> Ground<'a> {
         let by_law = Cavity::of(surface, top);
         let first = counted.as_ref().ok().and_then(|(_, first)| *first);
         let first_mode_hz = first.unwrap_or_else(|| medium.omega(first_wavenumber(surface)) / TAU);
-        if by_law.modes() < 1.0 || matches!(counted, Ok((0, _))) {
+        // The law is asked only where nothing has been counted: of few modes it knows little.
+        let few = counted.as_ref().map_or_else(|_| by_law.modes() < 1.0, |(count, _)| *count == 0);
+        if few {
+            let low = surface.emission.band[0];
             return Err(PhysicsError::Range(OutOfRange::new(
-                "top of the band, in Hz",
-                format!("more than the first mode, at about {first_mode_hz:.1} Hz"),
-                top,
+                format!("modes of the sheet from {low} to {top} Hz"),
+                format!("at least 1 (the first is at about {first_mode_hz:.1} Hz)"),
+                0.0,
             )));
         }
         let scale = counted.as_ref().map_or(1.0, |(count, _)| *count as f64 / by_law.modes());

@@ -299,6 +299,24 @@ fn only_the_papers_film_speaks_of_the_paper() {
 }
 
 #[test]
+fn a_band_with_fewer_modes_than_weyls_law_has_one_has_a_design() {
+    let mut surface = papers_surface();
+    surface.outline = Outline::new(Shape::Rectangle { width: 0.1, height: 0.1 });
+    surface.actuators.retain(|actuator| surface.outline.contains(actuator.at));
+    // The first mode is at 239 Hz, the second at 378 Hz.
+    surface.emission.band = [0.0, 260.0];
+    let d = design(&surface).unwrap();
+    assert!(d.mode_count_weyl < 0.5 && d.mode_count_exact == Some(1), "{}", d.mode_count_weyl);
+    assert!(d.contrast_predicted > 0.0 && d.contrast_predicted.is_finite());
+    surface.emission.band = [0.0, 230.0];
+    let error = design(&surface).unwrap_err().to_string();
+    assert!(
+        error.starts_with("modes of the sheet from 0 to 230 Hz: expected at least 1 (the first is"),
+        "{error}"
+    );
+}
+
+#[test]
 fn the_axes_are_the_surfaces_own() {
     let mut surface = plate_band(plate());
     surface.actuators.truncate(3);
