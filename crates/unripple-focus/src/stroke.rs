@@ -118,7 +118,8 @@ impl Stroke {
 
     /// Length of all lines together, in m.
     fn length(&self) -> f64 {
-        self.sides().map(|(a, b)| a.distance(b)).sum()
+        // A sum of nothing would be -0.
+        self.sides().fold(0.0, |length, (a, b)| length + a.distance(b))
     }
 
     /// Every side of every line, in order.

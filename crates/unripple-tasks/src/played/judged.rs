@@ -66,8 +66,8 @@ pub(crate) fn judge<T>(
     let surface = source.surface;
     let plant = common.on.map(|on| on.load()).transpose()?;
     let plant = plant.as_ref().unwrap_or(&surface);
-    let plan = plan(&surface)?;
     go_on(progress)?;
+    let plan = plan(&surface)?;
     progress.stage("responses");
     let [planned, judged] = common.bands;
     let model = judge::model(&surface, Some(judge::judged_hz(&surface, planned)), &[])?;
