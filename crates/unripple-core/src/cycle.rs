@@ -25,7 +25,7 @@ pub trait Cycle {
 /// A real-time callback that a device calls once per cycle. Samples that it writes leave in the same cycle, without a
 /// block of buffering in between.
 ///
-/// It runs on the device's own thread, in real time: it must not allocate, lock, wait or fail.
+/// The callback runs on the device's own thread, in real time: it must not allocate, lock, wait or fail.
 pub trait Work: Any + Send {
     /// Reads the inputs and fills the outputs of one cycle.
     fn cycle(&mut self, cycle: &mut dyn Cycle);

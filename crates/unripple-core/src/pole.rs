@@ -14,7 +14,7 @@ pub enum Onset {
 
 /// A decaying oscillation, the solution of ü + 2σu̇ + ω²u = unit impulse, for unit modal mass.
 ///
-/// Its closed forms hold for underdamped, critically damped, overdamped and rigid (ω = 0) oscillators.
+/// The closed forms of this solution hold for underdamped, critically damped, overdamped and rigid (ω = 0) oscillators.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pole {
     /// Undamped angular frequency ω, in rad/s.

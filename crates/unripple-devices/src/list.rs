@@ -3,7 +3,7 @@
 use crate::jack;
 use std::path::Path;
 
-/// A device that is available, or the reason why one is not.
+/// Entry of the list of devices: a device that is available, or the reason why one is not.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Found {
     /// A virtual surface: as many channels as a surface has actuators, any rate and block.

@@ -49,7 +49,7 @@ pub enum Act {
         wave: Wave,
         /// Level of a sample of 1.
         gain: Level,
-        /// Whether it repeats until it is stopped. The samples of such a waveform continue from its end to its start without a step.
+        /// Whether the waveform repeats until it is stopped. The samples of one that repeats continue from its end to its start without a step.
         looped: bool,
         /// Duration of the fade-in, in s.
         fade: f64,

@@ -121,7 +121,7 @@ pub(crate) struct Sounding {
     pub wave: Wave,
     /// Factor on the effect's level, 0 to 1.
     pub gain: f64,
-    /// Whether it repeats until it is stopped.
+    /// Whether the waveform repeats until it is stopped.
     pub looped: bool,
     /// Duration of the fade-in, in s.
     pub fade: f64,

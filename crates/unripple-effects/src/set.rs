@@ -22,7 +22,7 @@ pub struct Effect {
     pub name: String,
     /// The region in which it acts.
     pub region: Region,
-    /// Its level at a gain of 1.
+    /// Level of the effect at a gain of 1.
     pub level: Level,
     /// The kind of effect, with its parameters.
     pub kind: Kind,

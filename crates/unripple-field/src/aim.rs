@@ -47,7 +47,7 @@ pub(crate) struct Resolved {
     pub points: Vec<Point>,
     /// Focal sample T.
     pub instant: usize,
-    /// Samples over which it is evaluated.
+    /// Samples over which the motion at the aim is evaluated.
     pub span: Range<usize>,
     /// Whether the field is known over all of [0, 2T], or of the last full period.
     pub complete: bool,

@@ -16,7 +16,7 @@ const HELD: usize = 1 << 25;
 pub(crate) struct Feeling<'a> {
     field: &'a ModalField<'a>,
     passage: &'a Passage,
-    /// Largest magnitude of every mode's shape over the points.
+    /// Largest magnitude of every mode's shape over the points of the field, in 1/√kg.
     reach: Vec<f64>,
 }
 
@@ -24,7 +24,7 @@ pub(crate) struct Feeling<'a> {
 struct Block {
     /// One row of samples per mode.
     rows: Vec<Vec<f32>>,
-    /// Largest magnitude of every mode over the whole span.
+    /// Largest magnitude over the whole span of every mode's displacement, filtered by 1/threshold, in √kg.
     peaks: Vec<f64>,
 }
 

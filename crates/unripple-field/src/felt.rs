@@ -35,7 +35,7 @@ pub(crate) struct Felt {
 pub(crate) struct AllFelt {
     /// What is felt at each aim.
     pub targets: Vec<Felt>,
-    /// Largest magnitude at every point over all spans, in units of the threshold.
+    /// Largest magnitude of the threshold-weighted displacement at every point over all spans, in units of the threshold.
     pub peak: Vec<f32>,
 }
 
@@ -96,13 +96,13 @@ fn passages(
     found
 }
 
-/// What is felt at an aim.
+/// Largest threshold-weighted displacement at an aim, when it is reached, and how long the motion lasts.
 struct Own {
-    /// The sample at which it is felt most.
+    /// Sample at which the threshold-weighted displacement is largest in magnitude.
     extreme: usize,
-    /// The magnitude then, in units of the threshold.
+    /// Magnitude of the threshold-weighted displacement at that sample, in units of the threshold.
     level: f64,
-    /// For how many samples it goes on around that sample.
+    /// For how many samples the motion goes on as felt around that sample; `None` if it never pauses.
     lasting: Option<usize>,
 }
 

@@ -188,13 +188,13 @@ struct Judge<'a> {
 
 /// Motion outside the focal discs that a level is compared with.
 struct Surroundings {
-    /// Rms over outside points at the instant.
+    /// Rms velocity (m/s) or displacement (m) over outside points at the instant of the level.
     then: f64,
-    /// Rms over outside points and the span.
+    /// Rms velocity (m/s) or displacement (m) over outside points and the span.
     background: f64,
-    /// Largest magnitude over outside points and the span.
+    /// Largest magnitude of the velocity (m/s) or displacement (m) over outside points and the span.
     worst: f64,
-    /// The point where that is, if anything moves.
+    /// Index of the point where that magnitude is reached; `None` if nothing moves.
     worst_point: Option<usize>,
 }
 

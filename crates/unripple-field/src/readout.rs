@@ -32,7 +32,7 @@ pub struct Readout<'a> {
     pub(crate) kept: Arc<Kept>,
 }
 
-/// Points of a grid, and the weights of every mode there.
+/// Cached data of a grid: its points inside the outline, and the weights of every mode at them.
 #[derive(Debug, Default)]
 pub(crate) struct Kept {
     /// The points of the grid inside the outline, in metres.

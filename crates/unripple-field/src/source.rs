@@ -37,7 +37,7 @@ impl Trace {
 /// Largest magnitude and sum of squares of one quantity at every point of a field, over a segment of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Tally {
-    /// Largest magnitude at each point.
+    /// Largest magnitude of the quantity at each point: m/s, m, or units of the threshold of touch.
     pub peak: Vec<f32>,
     /// Sum of squares over the samples.
     pub squares: Vec<f64>,

@@ -14,9 +14,9 @@ const CHORDS: usize = 360;
 /// A line in the plane, open or closed, as straight segments between vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Its vertices, in metres.
+    /// Vertices of the line, in metres.
     pub points: Vec<Point>,
-    /// Whether it returns to its first vertex.
+    /// Whether the line returns to its first vertex.
     pub closed: bool,
 }
 

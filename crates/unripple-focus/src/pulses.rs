@@ -74,7 +74,7 @@ pub struct Struck {
 /// The drive of least energy that gives every point of every pulse its velocity at its instant, exactly but for the
 /// regularisation and the limits.
 ///
-/// It is a sum of reversed responses, `d_a[j] = Σ_k c_k h_ak[f_k − j]`, one k for each point of each pulse. The gains
+/// The drive is a sum of reversed responses, `d_a[j] = Σ_k c_k h_ak[f_k − j]`, one k for each point of each pulse. The gains
 /// c_k solve the K x K Gram system of these responses, so that the motion which a pulse causes at the instants of
 /// others is accounted for. Responses reach back to the drive's first sample, or until they have decayed to 1/10 000.
 ///

@@ -111,7 +111,7 @@ impl Stroke {
         Ok((0..steps + last).map(pulse).collect())
     }
 
-    /// Whether it ends where it started.
+    /// Whether the path ends where it started.
     fn returns(&self) -> bool {
         matches!(&self.path.lines[..], [line] if line.closed)
     }

@@ -34,7 +34,7 @@ impl Sounding {
     }
 }
 
-/// The sound wanted of a voice, and what the player knows of it.
+/// State of a voice: the sound that is to be played, and what the player has been told of it.
 #[derive(Debug)]
 pub(crate) struct Kept {
     /// The sound, its place and level.
@@ -45,9 +45,9 @@ pub(crate) struct Kept {
     pub hold: Option<Hold>,
     /// The player's input that a waveform has.
     pub input: Option<usize>,
-    /// Whether the player knows where and how strong it is.
+    /// Whether the player has the newest place and level of the sound.
     pub told: bool,
-    /// The sample before which it is not begun again.
+    /// Sample of the player's clock before which the sound is not begun again.
     pub again: u64,
     /// Whether the player refuses it for what it is, not for want of room.
     pub hopeless: bool,

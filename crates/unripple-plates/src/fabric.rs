@@ -26,7 +26,7 @@ pub(crate) struct Fabric {
     extent: (f64, f64),
     /// The sheet with all factors of its profiles 1.
     nominal: Local,
-    /// Its elastic moduli, and its thickness in metres.
+    /// The nominal sheet as a layer: elastic moduli in Pa, thickness in metres.
     layer: Layer,
     thickness: Option<Profile>,
     tension: Option<Profile>,
@@ -48,9 +48,9 @@ struct Layer {
 pub(crate) struct Disc {
     /// Centre of the disc, in metres.
     pub(crate) at: Point,
-    /// Its radius, in metres.
+    /// Radius of the disc, in metres.
     pub(crate) radius: f64,
-    /// Its mass per area, in kg/m².
+    /// Mass per area of the disc, in kg/m².
     mass: f64,
     layer: Layer,
 }

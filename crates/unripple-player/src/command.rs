@@ -61,7 +61,7 @@ pub enum Command {
     SetFilters {
         /// Index of the input.
         input: usize,
-        /// Its responses to all outputs.
+        /// Responses from the input to all outputs.
         filters: Arc<PreparedFilters>,
         /// When the fade begins: with the block that holds this sample.
         at: At,
@@ -101,7 +101,7 @@ impl Command {
         }
     }
 
-    /// Whether it begins something that goes on until it is ended.
+    /// Whether the command begins something that goes on until it is ended.
     pub(crate) fn goes_on(&self) -> bool {
         match self {
             Self::Start { drive, period, .. } => period.is_some() || drive.every().is_some(),
@@ -110,7 +110,7 @@ impl Command {
         }
     }
 
-    /// Whether it begins something that is over by itself.
+    /// Whether the command begins something that is over by itself.
     pub(crate) fn is_passing(&self) -> bool {
         matches!(self, Self::Start { .. } | Self::Wave { .. }) && !self.goes_on()
     }

@@ -17,7 +17,7 @@ pub(crate) struct Sounding {
     pub(crate) samples: u64,
     /// Factor on its samples, after limiting.
     pub(crate) gain: f32,
-    /// Its end before its last sample, where there is one.
+    /// Fade-out that ends the copy before its last sample, if there is one.
     pub(crate) fade: Option<Fade>,
 }
 

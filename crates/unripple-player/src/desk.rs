@@ -34,7 +34,7 @@ pub struct Desk {
 
 /// A command on its way, with its number.
 pub(crate) struct Sent {
-    /// Its number: how many were sent up to it.
+    /// Number of the command: how many were sent so far, this one included.
     pub(crate) id: u64,
     /// What is asked for.
     pub(crate) command: Command,

@@ -111,7 +111,7 @@ pub(crate) fn weighted_energy(samples: &[f32], weights: &[f32]) -> f64 {
     f64::from(fold2(samples, weights, 0.0, |sum, x, w| sum + w * (x * x), |a, b| a + b))
 }
 
-/// Largest magnitude of some samples.
+/// Largest magnitude of some samples, in their own unit.
 #[inline(always)]
 pub(crate) fn peak(samples: &[f32]) -> f32 {
     fold2(samples, samples, 0.0, |worst, x, _| larger(worst, x.abs()), larger)

@@ -14,23 +14,23 @@ pub(crate) struct Leases {
 struct Lease {
     id: u64,
     held: Arc<Held>,
-    /// Whether it was let go, and that was done.
+    /// Whether the hold was released, and what it kept playing was ended.
     ended: bool,
 }
 
 /// A hold that is released.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LetGo {
-    /// Number of the command that began it.
+    /// Number of the command that began what is held.
     pub(crate) id: u64,
-    /// Sample of the clock at which it is let go.
+    /// Sample of the clock at which the hold is released.
     pub(crate) sample: u64,
-    /// Samples of its fade; `None` to ring out.
+    /// Samples of the fade-out; `None` to ring out.
     pub(crate) fade: Option<u32>,
 }
 
 impl Leases {
-    /// Room for a number `most` of them at once.
+    /// Room for at most `most` holds at once.
     pub(crate) fn new(most: usize) -> Self {
         Self { all: Vec::with_capacity(most), most }
     }
@@ -45,7 +45,7 @@ impl Leases {
         self.all.push(Lease { id, held, ended: false });
     }
 
-    /// The first that is let go before a sample.
+    /// The hold that is released first, if it is released before sample `end`.
     pub(crate) fn next(&self, end: u64) -> Option<LetGo> {
         let going = self.all.iter().filter(|lease| !lease.ended);
         let (sample, lease) =
@@ -58,7 +58,7 @@ impl Leases {
         self.all.iter_mut().filter(|lease| lease.id == id).for_each(|lease| lease.ended = true);
     }
 
-    /// Tells of those that are over by a sample.
+    /// Removes the holds of what no longer plays, and marks them as over at `sample`.
     pub(crate) fn settle(&mut self, sample: u64, is_on: impl Fn(u64) -> bool, outlet: &mut Outlet) {
         let mut at = 0;
         while at < self.all.len() {

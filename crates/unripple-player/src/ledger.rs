@@ -110,7 +110,7 @@ impl Ledger {
         }
     }
 
-    /// Empties a future block, by its number, to be filled again by [`Ledger::refill`] with every copy in the
+    /// Empties the future block of number `block`, to be filled again by [`Ledger::refill`] with every copy in the
     /// order of mixing.
     pub(crate) fn clear(&mut self, block: u64) {
         let at = (block * self.block as u64 % self.span as u64) as usize;

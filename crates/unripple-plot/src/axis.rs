@@ -251,7 +251,7 @@ pub(crate) fn shortened(name: &str) -> String {
     start.iter().chain(&['…']).chain(end).collect()
 }
 
-/// Largest magnitude drawn; anything beyond counts as a gap.
+/// Largest magnitude of a value that is drawn, in the unit shown; anything beyond counts as a gap.
 pub(crate) const LARGEST: f64 = 1e100;
 
 /// Smallest value on a logarithmic axis, so that the ratio of any two is a number.

@@ -87,11 +87,11 @@ pub(crate) struct Text<'a> {
     pub anchor: Anchor,
     /// Which height of the line is at the place.
     pub rise: Rise,
-    /// Whether it reads upwards instead of rightwards.
+    /// Whether the text reads upwards instead of rightwards.
     pub upwards: bool,
     /// Colour of the letters.
     pub ink: Rgb,
-    /// Whether it has a white rim, to be read over an image.
+    /// Whether the letters have a white rim, to be read over an image.
     pub halo: bool,
 }
 

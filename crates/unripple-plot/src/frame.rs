@@ -108,7 +108,7 @@ impl Title {
         }
     }
 
-    /// Draws it, the middle of its last line at a place, in points.
+    /// Draws the title with the middle of its last line at a place, in points.
     pub fn draw(&self, canvas: &mut Canvas, [x, y]: [f64; 2], style: &Style) {
         for (above, line) in self.0.iter().rev().enumerate() {
             let at = [x, y - LINE * above as f64 * style.label_pt];

@@ -59,7 +59,7 @@ pub fn write_file(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), StoreError
     write_beside(path, |file| file.write_all(bytes).map_err(StoreError::write(path)))
 }
 
-/// Name of a file in the hidden folder that it is written in.
+/// Name of a file while it is being written, in a hidden folder beside its destination.
 const CONTENT: &str = "content";
 
 /// Lets `fill` write a new file beside `path`, then renames it into place; nothing is left if either fails.

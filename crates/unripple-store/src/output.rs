@@ -43,7 +43,7 @@ pub struct OutputDir {
 pub struct Committed {
     /// Path of the output.
     pub path: PathBuf,
-    /// Whether it replaced the output of an earlier run.
+    /// Whether this output replaced that of an earlier run.
     pub replaced: bool,
 }
 

@@ -34,7 +34,7 @@ impl Wish {
     }
 }
 
-/// Touches and requests that sources have appended since the caller last cleared it.
+/// Touches and requests that sources have appended since the caller last cleared this buffer.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Heard {
     /// Touches, in the order in which they were reported.

@@ -19,9 +19,9 @@ const GUESTS: usize = 128;
 enum Standing {
     /// No request was allowed so far: anybody may have opened it.
     Stranger,
-    /// A request of it was allowed.
+    /// A request of the connection was allowed.
     Guest,
-    /// It is a page's link. How many there may be is counted elsewhere.
+    /// The connection is the link of a page. How many there may be is counted elsewhere.
     Page,
 }
 

@@ -154,7 +154,7 @@ async fn load(State(desk): State<Desk>, request: Request) -> Response {
     }
 }
 
-/// Files of the last act that was measured; of no other, where its number is given.
+/// Files of the newest measurement; if the request gives a number, only those of the measurement with that number.
 async fn measured(State(desk): State<Desk>, Path(name): Path<String>, uri: Uri) -> Response {
     let Some(measured) = desk.host.measured() else {
         return (StatusCode::NOT_FOUND, "nothing has been measured yet\n").into_response();

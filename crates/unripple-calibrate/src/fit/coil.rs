@@ -13,7 +13,7 @@ pub(crate) struct Coil {
     sensor: Sensor,
     /// The load of the actuator without its mass.
     load: Load,
-    /// Its signal per m/s of velocity without inductance and without housing.
+    /// Signal of the coil per velocity (m/s), without inductance and without housing.
     plain: f64,
     /// bl²/R of a coil without housing, in N·s/m.
     damping: f64,

@@ -9,7 +9,7 @@ use unripple_dsp::median;
 /// latency.
 const FLOOR: f64 = 1e-3;
 
-/// The data of a fit: responses between a surface's actuators, taps recorded by them, or both.
+/// Measured data that a model is fitted to: responses between a surface's actuators, taps recorded by them, or both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// Samples per second.

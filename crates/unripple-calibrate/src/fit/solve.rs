@@ -29,7 +29,7 @@ const INSIDE: f64 = 1e-4;
 /// matters.
 const STUCK: f64 = 1e6;
 
-/// Result of a descent: fitted values and their residual.
+/// Result of a least-squares fit by the Levenberg-Marquardt method: fitted values and their residual.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
     /// The values of the unknowns.

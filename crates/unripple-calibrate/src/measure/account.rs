@@ -57,13 +57,13 @@ pub struct Account {
     pub repeats: Vec<Account>,
 }
 
-/// Clock error below which it is not reported, in parts per million.
+/// Clock error below which none is reported, in parts per million.
 const SAME_PPM: f64 = 0.5;
 
-/// Relative change of tension below which it is not reported.
+/// Relative change of tension below which none is reported.
 const SAME_TENSION: f64 = 1e-4;
 
-/// Delay below which it is not reported, in samples: a third of a degree of the phase at 1 kHz for a rate of 48 kHz.
+/// Delay below which none is reported, in samples: a third of a degree of the phase at 1 kHz for a rate of 48 kHz.
 const SAME_TIME: f64 = 0.05;
 
 /// Share of the amplitude from which a harmonic is reported.

@@ -15,7 +15,7 @@ const TURN: f64 = 1.0;
 /// Largest delay that is searched, either way, in samples: whole ones are removed beforehand.
 const MOST_DELAY: f64 = 2.5;
 
-/// The differences between two takes of the same responses.
+/// Delay and relative change of tension between two takes of the same responses, with standard errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Apart {
     /// Delay of the found responses relative to the known ones, in samples.

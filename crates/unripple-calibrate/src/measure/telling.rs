@@ -28,7 +28,7 @@ const STEPS: usize = 6;
 /// Iterations that turn delays between pairs of sweeps into delays of sweeps.
 const ROUNDS: usize = 200;
 
-/// Deconvolved recordings of some sensors, each with all sweeps of one take.
+/// Deconvolved recordings of some sensors, each with all sweeps of one take, from which the sweeps' delays and tensions are found.
 pub(super) struct Telling<'a> {
     /// For each sensor, the index of its own actuator.
     pub sensors: &'a [usize],

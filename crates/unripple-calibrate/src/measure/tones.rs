@@ -53,7 +53,7 @@ pub(super) struct Tone {
     pub own: Vec<c64>,
 }
 
-/// Responses of as many sensors as drives, with the sample that is their time 0.
+/// Impulse responses of sensors to drives, equal in number, and the sample that is their time 0.
 pub(super) struct Heard<'a> {
     /// The responses, `[sensor][drive][sample]`.
     pub responses: &'a [Vec<Vec<f64>>],

@@ -30,7 +30,7 @@ pub(super) struct CombWork {
 }
 
 impl CombWork {
-    /// Number of samples of the signal that it has room for.
+    /// Number of samples of the signal that the workspace has room for.
     pub fn size(&self) -> usize {
         self.parts.len()
     }

@@ -26,7 +26,7 @@ const TELLING: usize = 24;
 /// Distance, in shortest wavelengths compared, within which a place counts as that of a point or actuator.
 const NEAR: f64 = 0.2;
 
-/// The findings on a point.
+/// Result of the verification of one probed point: how well its responses fit the model, and at which place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Judged {
     /// Agreement with the model at the stated place and the common delay.
@@ -42,13 +42,13 @@ pub(super) struct Judged {
 /// Whether a point's responses fit its place, another place, or none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
-    /// It fits its stated place, or one close by.
+    /// The responses fit the stated place of the point, or one close by.
     Here,
-    /// It fits another place.
+    /// The responses fit another place of the sheet, which is given together with what is known to be there.
     Elsewhere(Spot, Whose),
-    /// It fits its place, but not with the others' delay.
+    /// The responses fit the stated place, but with a delay that differs from that of the other points by this time, in s.
     Late(f64),
-    /// It fits no place of the surface.
+    /// The responses fit no place of the surface.
     Nothing,
 }
 

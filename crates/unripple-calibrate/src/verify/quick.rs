@@ -44,7 +44,7 @@ const REACH: f64 = 1.6;
 pub(super) struct Quick {
     /// The fitted model.
     pub fitted: Fitted,
-    /// The band that it was fitted in, in Hz.
+    /// The band in which the model was fitted, in Hz.
     pub band: [f64; 2],
     /// Indices of the actuators that are used.
     pub actuators: Vec<usize>,

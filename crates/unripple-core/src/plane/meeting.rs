@@ -32,7 +32,7 @@ const MOST_HALVINGS: u64 = 4_000_000;
 /// Most pairs of rims that meet before the search ends, for the same bound on time.
 const MOST_MEETINGS: usize = 10_000;
 
-/// The result of [`within`] for a curve that crosses or touches itself.
+/// The result of [`within`]: two sides of a closed curve that cross or touch, or a search that was given up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Met {
     /// Two sides, by their indices in the list of sides, the smaller first, meet at this point (m).

@@ -19,13 +19,13 @@ pub(super) const RATE: f64 = 48e3;
 /// One side's clock and manners. Times are in frames at the nominal rate since the card was opened.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
-    /// How fast it is, 1 being the nominal rate.
+    /// Rate of the clock over the nominal rate.
     pub(super) pace: f64,
-    /// When its converter starts.
+    /// Time at which the converter starts.
     pub(super) begins: f64,
-    /// It stands still from one time to another.
+    /// Start and end of the time in which the clock stands still.
     pub(super) stop: [f64; 2],
-    /// Frames that it is given at once, in turn.
+    /// Numbers of frames in successive callbacks of this side, taken in turn.
     pub(super) chunks: Vec<usize>,
 }
 
@@ -58,13 +58,13 @@ pub(super) struct StandIn {
     pub(super) plays: Clock,
     pub(super) records: Clock,
     pub(super) now: f64,
-    /// Every frame that it was given to play.
+    /// Every frame that the card was given to play.
     pub(super) played: Vec<[f32; 2]>,
     recorded: usize,
     calls: [usize; 2],
 }
 
-/// The program's hold on it.
+/// The program's handle on the simulated card.
 #[derive(Clone)]
 pub(super) struct Held(pub(super) Arc<Mutex<StandIn>>);
 

@@ -9,7 +9,7 @@ use unripple_core::{Device, require};
 /// A device run as a client of a JACK server: a virtual surface then is to other clients what a sound card with the surface
 /// connected to it would be. For tests and experiments.
 ///
-/// It receives drive on ports `in_NAME`, one for each output of the device, and sends on `out_NAME`, one for each input;
+/// The client receives drive on ports `in_NAME`, one for each output of the device, and sends on `out_NAME`, one for each input;
 /// [`Links::Client`](super::Links::Client) connects to them. The server's own thread exchanges the blocks, so a device that
 /// takes its time delays the server: nothing is lost while it freewheels, otherwise cycles may be.
 ///

@@ -131,7 +131,7 @@ pub(super) struct Client {
     outputs: Vec<*mut RawPort>,
     /// Once active: what the callbacks get, owned.
     context: *mut Context,
-    /// Whether it made the server run without a clock.
+    /// Whether this client made the server run without a clock.
     freewheels: bool,
     pub(super) events: Arc<Events>,
 }
@@ -183,7 +183,7 @@ impl Client {
         Ok(Self { api, raw, inputs, outputs, context: ptr::null_mut(), freewheels: false, events })
     }
 
-    /// Its name, as the server gave it.
+    /// Name of the client, as the server gave it; empty once the client is closed.
     pub(super) fn name(&self) -> String {
         if self.raw.is_null() {
             return String::new();
@@ -333,7 +333,7 @@ impl Client {
         Closing { api: self.api, raw, context, freewheels, events }.begin();
     }
 
-    /// Whether it was closed.
+    /// Whether the client was closed.
     pub(super) fn closed(&self) -> bool {
         self.raw.is_null()
     }

@@ -16,7 +16,7 @@ pub struct Lead {
     pub reversed: bool,
     /// Name of the channel that it is wired to instead of its own; `None` if it is right.
     pub instead: Option<String>,
-    /// Mean correlation, 0 to 1, of its recordings with the model of the channel that it is wired to.
+    /// Mean correlation, 0 to 1, of the channel's recordings with the model of the channel that it is wired to.
     pub likeness: f64,
     /// Whether `likeness` is too little for a verdict: less than [`WiringOptions::least_likeness`].
     pub unlike: bool,

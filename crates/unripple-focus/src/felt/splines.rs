@@ -42,7 +42,7 @@ impl Splines {
         signal
     }
 
-    /// Their sum with these coefficients, one number per sample of the drive.
+    /// Sum of the splines times these coefficients, one number per sample of the drive.
     pub fn sum(self, coefficients: &[f64]) -> Vec<f64> {
         let mut signal = vec![0.0; self.samples];
         for (knot, c) in coefficients.iter().enumerate() {
@@ -51,7 +51,7 @@ impl Splines {
         signal
     }
 
-    /// Σ over samples of the product of any two of them.
+    /// Sum over samples of the product of each two splines, splines x splines.
     pub fn products(self) -> Mat<f64> {
         let count = self.count();
         let mut products = Mat::zeros(count, count);

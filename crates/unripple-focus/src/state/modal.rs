@@ -10,12 +10,12 @@ use unripple_linalg::{Accum, Mat, Par, multiply, product};
 /// the cells, and their mean stays the same.
 const CELLS: f64 = 6.0;
 
-/// What a coordinate of a mode is.
+/// Quantity that a coordinate of a mode's state at the focal instant stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Keeps {
     /// The velocity of the mode.
     Velocity,
-    /// Its displacement times its angular frequency: to be brought to rest.
+    /// The displacement of the mode times its angular frequency: to be brought to rest.
     Displacement,
 }
 

@@ -4,12 +4,12 @@ use super::Waveform;
 use super::plan::Plan;
 use unripple_dsp::Complex;
 
-/// What is asked for, within the band.
+/// Prescribed motion of the targets: the waveforms within the band, as spectra on the drive's clock.
 #[derive(Debug)]
 pub(crate) struct Asked {
     /// Spectrum of each waveform on the drive's clock, over the lines of the band.
     spectra: Vec<Vec<Complex<f64>>>,
-    /// Share of each one's energy that lies outside the band.
+    /// Share of each waveform's energy, 0 to 1, that lies outside the band.
     pub lost: Vec<f64>,
 }
 

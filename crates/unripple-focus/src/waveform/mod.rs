@@ -19,7 +19,7 @@ use plan::Plan;
 use transfer::Transfer;
 use unripple_core::{Drive, Point, Responses, require};
 
-/// A drive that plays waveforms, and the motion that it was computed for.
+/// A drive that makes targets follow waveforms, and the motion that was prescribed at them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Played {
     /// The drive to be sent to the actuators.

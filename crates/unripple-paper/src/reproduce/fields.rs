@@ -8,7 +8,7 @@ pub(super) fn cells(field: &Field) -> Result<Grid, TaskError> {
     field.grid().cloned().ok_or_else(|| TaskError::Work("the field has no grid to draw".into()))
 }
 
-/// Largest magnitude of some values; 0 without any.
+/// Largest magnitude of some values, in their own unit; 0 without any.
 pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, x| m.max(x.abs()))
 }

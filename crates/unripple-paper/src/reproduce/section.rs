@@ -82,7 +82,7 @@ pub struct Predicted {
     pub what: String,
     /// Value found here.
     pub here: String,
-    /// How it comes about, or what to compare it with.
+    /// How the value comes about, or what to compare it with.
     pub why: String,
 }
 

@@ -10,7 +10,7 @@ use unripple_physics::design::{Cavity, closed};
 /// Directions in which a spot is measured, 22.5 degrees apart; their mean changes little with more.
 const DIRECTIONS: usize = 16;
 
-/// Radii at which it is read, and the largest of them in shortest wavelengths.
+/// Number of radii at which a spot is measured, and the largest radius in shortest wavelengths.
 const RADII: usize = 40;
 const REACH: f64 = 1.0;
 
@@ -80,7 +80,7 @@ fn spot(bench: &Bench, target: Point, state: ColRef<'_, f64>) -> f64 {
 
 /// Full width at half maximum of the velocity at the target around the focal instant, in seconds.
 ///
-/// It is the sum of the responses' autocorrelations: `Σ_l h[l + s] h[l]` for a lag of s samples after, and as many before.
+/// The velocity is the sum of the responses' autocorrelations: `Σ_l h[l + s] h[l]` at s samples after that instant, likewise before.
 fn pulse(
     bench: &Bench,
     inputs: MatRef<'_, f64>,

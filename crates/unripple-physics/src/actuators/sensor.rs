@@ -39,7 +39,7 @@ pub struct Sensor {
     pub housing: Option<Housing>,
     /// Unit of the signal: m/s, V or A.
     pub unit: &'static str,
-    /// Whether it senses a velocity; a patch does not.
+    /// Whether the signal follows the sheet's velocity under the contact: false for a piezo patch, which senses bending.
     placed: bool,
 }
 

@@ -15,14 +15,14 @@ const UNFELT: f64 = 1e-12;
 /// A normalised combination of modes of one frequency.
 #[derive(Clone, Debug)]
 pub(super) struct Shape {
-    /// Its pole without the loads.
+    /// Pole of the combination without the loads.
     pub pole: Pole,
     /// Indices of modes and their coefficients, whose squares sum to 1.
     pub parts: Vec<(usize, f64)>,
 }
 
 impl Shape {
-    /// Its weight, from the weights of the modes.
+    /// Weight of the combination at a footprint, computed from the modes' weights there.
     pub fn weight(&self, row: unripple_linalg::RowRef<'_, f64>) -> f64 {
         self.parts.iter().map(|(mode, part)| part * row[*mode]).sum()
     }

@@ -97,7 +97,7 @@ impl Loaded {
 
     /// Adds the residual compliance at the loads of all modes of wavenumbers above `above` (rad/m), which were not computed.
     ///
-    /// It is the static deflection of an infinite sheet of this `medium`, without its part of wavenumbers below `above`, with
+    /// The compliance is the static deflection of an infinite sheet of this `medium`, without its part of wavenumbers below `above`, with
     /// its inertia to first order. `decay` gives the decay rate (1/s) for a frequency (rad/s) and wavenumber (rad/m). Contacts
     /// count as discs of a radius of at least `finest` (m), the thickness of the sheet. Without loads nothing is added.
     ///

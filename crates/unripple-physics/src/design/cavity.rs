@@ -12,7 +12,7 @@ const BINS: usize = 400;
 
 /// Statistical contrast of a surface as a reverberant cavity, from its modal density and decay time at each frequency.
 ///
-/// It refines [`super::closed::contrast`] in five ways, none of them fitted:
+/// This contrast refines [`super::closed::contrast`] in five ways, none of them fitted:
 /// - the modal density n(f) grows towards the top of the band, so that sums over neighbouring modes give ∫n²df and not B n̄²;
 /// - modes vanish (or are larger) at the rim, so that away from it, where targets are, they count S k²/4π and not M;
 /// - mode shapes of a rectangle are products of two sines, whose squares have the relative variance 5/4 and not 2 as for

@@ -54,7 +54,7 @@ pub fn foci(contrast: f64, foci: f64) -> f64 {
 /// Contrast of a focus repeated every `period` T_r (s), in the simplest form: 1/C² = q/C_TR² + e/M + (q - 1)/2M with
 /// q = coth(T_r/τ), B in Hz, τ and T in s.
 ///
-/// It counts all later pulses as complete, and adds the echoes of earlier and later pulses in power. [`super::Cavity::repeated`]
+/// This form counts all later pulses as complete, and adds the echoes of earlier and later pulses in power. [`super::Cavity::repeated`]
 /// is more accurate.
 pub fn repeated(
     actuators: f64,

@@ -23,7 +23,7 @@ pub(super) struct Burden {
     pub(super) stiffness: f64,
     /// A coil driven by a voltage, if there is one.
     pub(super) circuit: Option<Circuit>,
-    /// Whether it is that of a twin, whose energy is not the surface's.
+    /// Whether the load belongs to the twin of a housing, whose energy is not the surface's.
     pub(super) twin: bool,
 }
 
@@ -329,7 +329,7 @@ impl Loads {
 /// `p = (1 - e^{-θ})/θ`.
 #[derive(Clone, Copy, Debug, Default)]
 struct Coil {
-    /// Its contribution to D².
+    /// Contribution of the coil to D², in N/m.
     square: f64,
     /// Mean force per initial current.
     carry: f64,

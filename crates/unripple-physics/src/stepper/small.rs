@@ -132,7 +132,7 @@ pub(super) struct Solution {
     pub(super) x: Vec<Oct>,
     /// The scaled solution D x.
     pub(super) scaled: Vec<Oct>,
-    /// Its image A D x.
+    /// The product A D x of the matrix and the scaled solution.
     pub(super) image: Vec<Oct>,
 }
 

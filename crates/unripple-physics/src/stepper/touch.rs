@@ -8,7 +8,7 @@ use unripple_core::Finger;
 pub(super) struct Touch {
     /// Number given to it by the caller.
     pub(super) id: u64,
-    /// Its mass, damping, stiffness and contact radius.
+    /// Mass, damping, stiffness and contact radius of the finger.
     pub(super) finger: Finger,
     /// Index of its pair of rows of weights.
     pub(super) slot: usize,
@@ -16,7 +16,7 @@ pub(super) struct Touch {
     pub(super) coming: f64,
     /// Progress of moving to its newest place, 0 to 1.
     pub(super) moving: f64,
-    /// Whether it has been lifted.
+    /// Whether the finger has been lifted.
     pub(super) lifted: bool,
 }
 
@@ -26,13 +26,13 @@ impl Touch {
         Self { id, finger, slot, coming: 0.0, moving: 1.0, lifted: false }
     }
 
-    /// Whether it is being put down, moved or lifted.
+    /// Whether the finger is being put down, moved or lifted.
     #[inline(always)]
     pub(super) fn changes(&self) -> bool {
         self.lifted || self.coming < 1.0 || self.moving < 1.0
     }
 
-    /// Advances its fade and its movement by these shares, 0 to 1 each.
+    /// Advances the finger's fade and movement by these shares, 0 to 1 each.
     #[inline(always)]
     pub(super) fn go_on(&mut self, fade: f64, glide: f64) {
         let fade = if self.lifted { -fade } else { fade };
@@ -40,7 +40,7 @@ impl Touch {
         self.moving = (self.moving + glide).min(1.0);
     }
 
-    /// Whether it has been lifted and its fade-out is over.
+    /// Whether the finger has been lifted and its fade-out is over.
     #[inline(always)]
     pub(super) fn gone(&self) -> bool {
         self.lifted && self.coming <= 0.0

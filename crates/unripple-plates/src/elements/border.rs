@@ -9,7 +9,7 @@ const TURN: f64 = 0.8;
 /// One edge of a triangle, run through as a parameter goes from 0 to 1; the triangle lies to its left.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Border {
-    /// The side of a rim, or the line, of which it is a piece.
+    /// The side of a rim, or the line, of which the border is a piece.
     pub(crate) side: Side,
     /// The side's parameter where the border starts.
     pub(crate) from: f64,
@@ -43,7 +43,7 @@ impl Border {
         ([d.x / size, d.y / size], [-d.y / size, d.x / size])
     }
 
-    /// Whether it is straight, so that quadrature along it is exact.
+    /// Whether the border is straight, so that quadrature along it is exact.
     pub(crate) fn is_straight(&self) -> bool {
         self.side.is_straight()
     }

@@ -67,8 +67,8 @@ pub(crate) struct Span {
 /// A triangle of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Triangle {
-    /// Its vertices, anticlockwise.
+    /// Indices of the triangle's vertices, anticlockwise.
     pub(crate) vertices: [usize; 3],
-    /// Its edges: the i-th joins vertices i and i + 1 (mod 3).
+    /// Indices of the triangle's edges: the i-th joins vertices i and i + 1 (mod 3).
     pub(crate) edges: [usize; 3],
 }

@@ -133,7 +133,7 @@ mod tests {
         }
     }
 
-    /// Their root of least real part, from a fine lattice of starts.
+    /// The least real part below `most` of a root of Williams's equations, by Newton's method from a fine lattice of starts.
     fn closed(angle: f64, edges: [Edge; 2], most: f64) -> f64 {
         let f = |z: c64| residual(angle, z, edges);
         let mut best = f64::INFINITY;

@@ -2,7 +2,7 @@
 
 use unripple_core::Shapes;
 
-/// The result of each method of solution, modes in order of ascending frequency.
+/// Computed modes of a sheet in order of ascending frequency, the common result of all methods of solution.
 pub(super) struct Found {
     /// Natural frequencies ω, in rad/s.
     pub(super) omegas: Vec<f64>,

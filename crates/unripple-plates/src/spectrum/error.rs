@@ -8,7 +8,7 @@ pub(crate) enum SpectrumError {
     Matrices {
         /// Name of the wrong quantity.
         what: &'static str,
-        /// Its allowed values.
+        /// Allowed values of the quantity.
         expected: String,
         /// What was found.
         found: String,

@@ -34,9 +34,9 @@ pub(super) struct Nodes<'a> {
 
 /// One supernode: columns of L that share their pattern of rows.
 pub(super) struct Node<'a> {
-    /// Its first column.
+    /// Index of the supernode's first column.
     pub(super) start: usize,
-    /// Its number of columns.
+    /// Number of columns in the supernode.
     pub(super) width: usize,
     /// Numbers of its rows below the triangle.
     pub(super) pattern: &'a [usize],

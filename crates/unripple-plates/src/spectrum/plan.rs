@@ -32,7 +32,7 @@ pub(super) struct Shift<'a> {
     pub(super) at: f64,
     /// Number of eigenvalues below.
     pub(super) below: usize,
-    /// Its factors, if memory allows to keep them.
+    /// Factors of K - σM at the shift, if memory allows to keep them.
     pub(super) factor: Option<Factor<'a>>,
 }
 

@@ -6,7 +6,7 @@ use pulp::NullaryFnOnce;
 
 /// Rayleigh quotients xᵀKx / xᵀMx of the vectors of a panel.
 ///
-/// Their error is of second order in the error of the vectors, so that rounding errors in the factors of K - σM have no effect.
+/// The error of the quotients is of second order in the error of the vectors, so that rounding errors in the factors of K - σM have no effect.
 /// In a stiff pencil the terms of xᵀKx are larger than their sum by many orders of magnitude, so that it is accumulated with
 /// twice the digits (Ogita, Rump and Oishi, *SIAM J. Sci. Comput.* 26, 1955, 2005, algorithm 5.3).
 pub(super) fn quotients(pencil: &Pencil, panel: &Panel) -> Row {

@@ -26,7 +26,7 @@ pub(super) fn product(a: &Square, b: &Square) -> Square {
 pub(super) struct Triangle {
     /// The upper triangle R.
     pub(super) upper: Square,
-    /// Its inverse R⁻¹.
+    /// Inverse R⁻¹ of the upper triangle.
     pub(super) inverse: Square,
     /// Least pivot over the largest, with the diagonal scaled to one; pivots below [`LEAST`] are raised to it.
     pub(super) ratio: f64,

@@ -10,7 +10,7 @@ const ATTENUATION: f64 = 100.0;
 /// The low-pass filter of a change of rate by `factor`, of 2 · `half` + 1 taps about its middle, with a sum of 1: a sinc under a
 /// Kaiser window (Kaiser, in *System Analysis by Digital Computer*, 1966, chapter 7).
 ///
-/// It passes frequencies up to the top of the band, and stops what would fold onto them.
+/// The filter passes frequencies up to the top of the band, and stops those that would be aliased onto them.
 #[derive(Clone, Debug)]
 pub(crate) struct LowPass {
     /// Samples of the full rate for each of the lower.

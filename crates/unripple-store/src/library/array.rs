@@ -168,7 +168,7 @@ impl Array {
         root.join(self.name)
     }
 
-    /// Path of a chunk, by its number along the first axis.
+    /// Path of the chunk with index `number` along the first axis, for a library in the folder `root`.
     pub fn chunk(&self, root: &Path, number: usize) -> PathBuf {
         let key = match self.shape.len() {
             0 => "c".to_owned(),

@@ -68,7 +68,7 @@ pub(crate) fn clip(text: &str) -> String {
 pub(crate) struct Entry<'a> {
     /// Path of its key, as `actuator[3].at_mm`.
     pub key: String,
-    /// The bytes of the file that it takes up.
+    /// Range of the bytes of the file that the value takes up.
     pub span: Range<usize>,
     value: &'a DeValue<'a>,
 }

@@ -9,7 +9,7 @@ use unripple_store::{Doubt, Library, PointState};
 /// Name of the wiring check, and key of its log entry.
 pub const WIRING: &str = "wiring";
 
-/// Faults of the wiring, and the dead actuators.
+/// Result of the wiring test: the dead actuators, and the faults of the wiring that were accepted.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
     /// Actuators that are left out, by index: no sensor records them, or the caller named them.
@@ -20,7 +20,7 @@ pub struct Found {
     pub faults: Vec<String>,
 }
 
-/// What is known and asked for before wires are tried.
+/// Options of the wiring test: actuators that are left out, and the faults that are accepted.
 pub struct Asked<'a> {
     /// The actuators' names.
     actuators: Vec<&'a str>,

@@ -33,7 +33,7 @@ const FIGURES: [&str; 14] = [
 pub(super) struct Table<'a> {
     /// The surfaces, each with its rows.
     pub surfaces: &'a [Compared],
-    /// Whether they have to be told apart.
+    /// Whether there are several surfaces, so that each row names its surface.
     pub several: bool,
     /// The level that was asked for.
     pub level: Level,

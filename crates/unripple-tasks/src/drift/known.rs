@@ -15,7 +15,7 @@ const MODEL: f64 = 0.02;
 /// Words for what a measured tension is compared with where that is a surface file.
 pub(super) const FILE: &str = "the surface file";
 
-/// What is known of a surface before the pings are played.
+/// Reference of the drift measurement: the surface, the responses of its model, and its dead actuators.
 pub(super) struct Known {
     /// The surface as its file or its library has it.
     pub surface: Surface,

@@ -14,7 +14,7 @@ pub struct Made {
     pub drive: Drive,
     /// Figures, traces and maps.
     pub judged: Judged,
-    /// Places and instants at which it was measured.
+    /// Places and instants at which the field was measured.
     pub aims: Vec<Aim>,
     /// The surface that was driven.
     pub surface: Surface,

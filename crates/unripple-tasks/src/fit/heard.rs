@@ -21,7 +21,7 @@ const LOWEST: f64 = 1.2;
 /// Highest frequency that is fitted, over the top of the band: modes at the very top are cut.
 const TOP: f64 = 0.9;
 
-/// The measurements of a library.
+/// Measured responses of a library, split into those between actuators and those at all other points.
 pub struct Heard {
     /// Responses from actuator to actuator.
     pub measured: Measured,

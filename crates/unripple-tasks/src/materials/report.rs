@@ -15,7 +15,7 @@ pub struct Report {
 /// A material, with the source of its constants.
 #[derive(Clone, Debug, Serialize)]
 pub struct MaterialRow {
-    /// Its name in surface files.
+    /// Name of the material in surface files.
     pub name: &'static str,
     /// Young's modulus, in Pa.
     pub young_pa: f64,

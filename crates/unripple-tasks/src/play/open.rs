@@ -20,7 +20,7 @@ const FELT: usize = 10;
 /// How often a lost sound server is looked for again. At four seconds each that is more than an hour.
 const TRIES: u32 = 1000;
 
-/// Blocks by which the drive is ahead on a device that does not call by itself: the fewest that it takes.
+/// Blocks by which the drive is ahead on a device that does not call by itself: the fewest that such a device takes.
 const LEAD: usize = 2;
 
 /// Share of the sensors' signals that the model may leave unexplained: the sheet still rings a little as it did under a

@@ -16,7 +16,7 @@ const CELLS: f64 = 3.0;
 /// If a drive is nearer to its limit than this share, the limit decided its level: rounding to float32 is smaller.
 const HELD: f64 = 1e-6;
 
-/// A drive, and what is known of how well it does.
+/// A drive of waveforms or of a stroke, and metrics of how accurately the targets follow.
 pub(crate) struct Played {
     /// The drive, float32 samples in the actuators' unit.
     pub drive: Drive,
@@ -24,7 +24,7 @@ pub(crate) struct Played {
     pub aims: Vec<Aim>,
     /// How long the traces go on after the drive, in s: half a window, in which the last waves pass.
     pub after: f64,
-    /// Name of the method that made it.
+    /// Name of the method that made the drive.
     pub method: &'static str,
     /// How the targets followed their waveforms.
     pub waveforms: Vec<Followed>,

@@ -56,7 +56,7 @@ pub trait Request: Clone + Serialize + DeserializeOwned {
 /// A surface that was read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SurfaceRead {
-    /// How it was asked for.
+    /// The surface as the task's options name it.
     pub asked: SurfaceAsk,
     /// Name of the surface, from its file.
     pub name: String,
@@ -67,7 +67,7 @@ pub struct SurfaceRead {
 /// A file that was read, or a folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRead {
-    /// Absolute path of it.
+    /// Absolute path of the file or folder.
     pub path: PathBuf,
     /// SHA-256 of its bytes, or of the names and bytes of all files in the folder, in hexadecimal digits.
     pub sha256: String,
@@ -83,7 +83,7 @@ pub struct Record {
     pub program: String,
     /// Version of the program.
     pub version: String,
-    /// The commit that it was built from, where that is known.
+    /// The commit that the program was built from, where that is known.
     pub commit: Option<String>,
     /// When it began: date and time of day, UTC, as ISO 8601 writes them.
     pub date: String,

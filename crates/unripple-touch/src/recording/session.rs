@@ -73,7 +73,7 @@ impl Recording {
         self.items.len()
     }
 
-    /// Whether it holds no touch and no request.
+    /// Whether the recording holds no touch and no request.
     pub fn is_empty(&self) -> bool {
         self.items.is_empty()
     }

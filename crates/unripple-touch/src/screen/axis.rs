@@ -6,9 +6,9 @@ use unripple_core::require;
 /// The range of an axis, as the screen states it, in its own unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Axis {
-    /// Least value of the axis.
+    /// Least coordinate that the screen reports along the axis, in its own unit.
     pub minimum: i32,
-    /// Largest value of the axis.
+    /// Largest coordinate that the screen reports along the axis, in its own unit.
     pub maximum: i32,
 }
 

@@ -11,7 +11,7 @@ use std::io::{self, ErrorKind};
 use std::os::fd::{AsFd, BorrowedFd};
 use std::path::{Path, PathBuf};
 
-/// Name of a screen, and the ranges of its coordinates.
+/// A touch screen that is connected: its name, its device file, and the ranges of its coordinates and pressure.
 pub(super) struct Found {
     pub(super) name: String,
     pub(super) kernel: Kernel,

@@ -27,7 +27,7 @@ const SAVED: &str = "surface.toml";
 /// Function that gives the responses of a library at some places (m), or says in words why it cannot.
 pub type Responder = Arc<dyn Fn(&[Point]) -> Result<Responses, String> + Send + Sync>;
 
-/// A result of the worker.
+/// A result of the compute worker: a message for pages, or simulated drives to be shown.
 pub enum Found {
     /// A message for pages.
     Out(Out),
@@ -44,7 +44,7 @@ const BESIDE: usize = 1;
 
 /// Why a task has no result.
 enum Unfinished {
-    /// It was given up.
+    /// The task was given up before it had a result.
     Stopped,
     /// Reason in words why it cannot be done.
     Refused(String),

@@ -89,7 +89,7 @@ mod tests {
         Arc::new(Edition { edit, surface: papers_surface() })
     }
 
-    /// What waits: edits as they are, acts by 100 and the edit that they are asked of.
+    /// Tasks that wait, as numbers: an edit as its own, a measurement or comparison as 100 plus the edit that it is asked of.
     fn drained(queue: &mut Queue) -> Vec<u64> {
         let name = |task| match task {
             Task::Design(edition) => edition.edit,

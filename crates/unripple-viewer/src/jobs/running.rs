@@ -38,7 +38,7 @@ impl Work {
         }
     }
 
-    /// The library that it fills.
+    /// Path of the library that the task fills; `None` for a task without one.
     fn library(&self) -> Option<PathBuf> {
         match self {
             Self::Calibrate(ask) => Some(ask.output.clone()),
@@ -71,7 +71,7 @@ pub struct Running {
     now: Mutex<Now>,
 }
 
-/// Its progress.
+/// Progress of a running task: the share that is done, and the newest lines of its output.
 #[derive(Default)]
 struct Now {
     share: Option<f64>,

@@ -56,7 +56,7 @@ pub enum Order {
     Probe(wire::Probe),
     /// Plays another instrument; the message is sent to pages after that.
     Play(Box<Instrument>, Value),
-    /// Shows two recorded acts side by side; with `None` the live surface again.
+    /// Shows two recorded simulations side by side; with `None` the live surface again.
     Replay(Option<Box<Replay>>),
     /// A page came, and must be shown a picture.
     Look,

@@ -18,7 +18,7 @@ pub struct RealDevice {
 /// The device while it is open.
 #[derive(Default)]
 struct Held {
-    /// The surface that it was opened for, and its samples per block.
+    /// The surface that the device was opened for, and the device's samples per block.
     of: Option<(Surface, usize)>,
     /// The device while nobody plays it.
     device: Option<Box<dyn Device>>,

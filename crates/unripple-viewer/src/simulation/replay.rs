@@ -1,4 +1,4 @@
-//! Two simulated acts, each a drive on a surface that nobody touches, shown side by side.
+//! Two simulations, each of a drive on a surface that nobody touches, shown side by side.
 
 use super::lens::{Lens, weights};
 use super::past::{Past, room, stride};
@@ -15,28 +15,28 @@ use unripple_tasks::Progress;
 /// Cells along the longer side of each picture: two of these are no more than one of the live surface's.
 const CELLS: usize = 88;
 
-/// Speed at which it is shown at first, in s of the surface per second of the page. A focus of a millisecond then takes
+/// Speed at which a replay is shown at first, in s of the surface per second of the page. A focus of a millisecond then takes
 /// a fifth of a second.
 const SPEED: f64 = 0.005;
 
 /// How much of the past a trace shows, in s. Half of the live trace's, since only the focus is looked at.
 const SPAN: f64 = 0.02;
 
-/// Time for which it goes on after the focus, in s, so that the waves are seen to part again.
+/// Time for which a replay goes on after the focus, in s, so that the waves are seen to part again.
 const AFTER: f64 = 6e-3;
 
-/// Samples that are simulated between two looks whether the acts are still wanted. With 10 000 modes they take some tens of
+/// Samples that are simulated between two looks whether the replay is still wanted. With 10 000 modes they take some tens of
 /// milliseconds.
 const LOOKED: usize = 512;
 
-/// One simulated act: the motion caused by a drive on a surface that nobody touches.
+/// One simulation: the motion caused by a drive on a surface that nobody touches.
 pub struct Pane {
     history: History,
     /// Drive of each actuator over its limit.
     drive: Vec<Vec<f32>>,
 }
 
-/// Simulated acts shown side by side, over and over, in step.
+/// Simulations shown side by side, over and over, in step.
 pub struct Replay {
     panes: Vec<Pane>,
     lens: Lens,
@@ -67,7 +67,7 @@ impl Replay {
         Self::within(most, surface, (modes, &plant), (drives, focus), places, progress)
     }
 
-    /// As [`Replay::record`], of a surface whose plant is known, with at most `most` states of each act.
+    /// As [`Replay::record`], of a surface whose plant is known, with at most `most` states of each simulation.
     fn within(
         most: usize,
         surface: &Surface,
@@ -116,7 +116,7 @@ impl Replay {
         self.panes.first().map_or(1.0, |pane| pane.history.stride() as f64) / self.rate
     }
 
-    /// Speed at which it is shown at first, in s of the surface per second of the page.
+    /// Speed at which the replay is shown at first, in s of the surface per second of the page.
     pub fn speed(&self) -> f64 {
         SPEED
     }
@@ -131,7 +131,7 @@ impl Replay {
         if now > self.to() { self.from() } else { now }
     }
 
-    /// The pictures at the instant `shown` (s), one for each act.
+    /// The pictures at the instant `shown` (s), one for each simulation.
     pub fn frames(&self, shown: f64, velocity: bool) -> Vec<Frame> {
         let frame = |(index, pane): (usize, &Pane)| {
             let history = &pane.history;
@@ -206,7 +206,7 @@ mod tests {
     use unripple::physics::design::papers_surface;
     use unripple_tasks::Silent;
 
-    /// Two acts on a small surface, of a focus after 50 ms, with at most so many states of each, or as many as there is room for.
+    /// Two simulations of a small surface with a focus after 50 ms, with at most so many states of each, or as many as there is room for.
     fn recorded(most: Option<usize>) -> Replay {
         let mut film = papers_surface();
         film.emission.band[1] = 700.0;

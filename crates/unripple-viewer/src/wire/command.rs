@@ -94,11 +94,11 @@ pub enum Command {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Phase {
-    /// It touched the surface.
+    /// The finger touched the surface.
     Down,
-    /// It moved on the surface.
+    /// The finger moved on the surface.
     Move,
-    /// It left the surface.
+    /// The finger left the surface.
     Up,
 }
 

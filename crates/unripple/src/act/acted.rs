@@ -73,7 +73,7 @@ impl<'a> Act<'a> {
 
 impl Acted {
     /// The report of `unripple focus` on `surface` with these options, without names of files; [`Judging::tell`] adds the modes
-    /// that it was evaluated on.
+    /// on which the drive was evaluated.
     ///
     /// [`Judging::tell`]: super::Judging::tell
     pub fn report(&self, surface: &Surface, options: &Options) -> Report {

@@ -8,7 +8,7 @@ pub(super) struct Caller(PathBuf);
 /// The activity of a thread so far: whether it waits to run, and its time on a processor.
 #[derive(PartialEq)]
 pub(super) struct Activity {
-    /// Whether it would run if it were given a processor.
+    /// Whether the thread would run if it were given a processor.
     pub(super) waits_for_a_processor: bool,
     /// Times on a processor and in the queue for one, in nanoseconds, and how often it was given one.
     scheduled: String,

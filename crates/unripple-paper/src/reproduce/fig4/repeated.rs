@@ -81,7 +81,7 @@ impl Tracked {
         (focus.saturating_sub(reach)..(focus + reach + 1).min(self.displacement.len())).fold(focus, larger)
     }
 
-    /// Samples from `first` on at which it is in focus, the first common focus being sample `origin`.
+    /// Samples from `first` on at which the point is in focus, the first common focus being sample `origin`.
     fn foci(&self, origin: usize, first: usize, rate: f64) -> Vec<usize> {
         let Some(hz) = self.hz else { return Vec::new() };
         let period = (rate / hz).round() as usize;

@@ -47,7 +47,7 @@ const MOST_MODES: f64 = 2000.0;
 
 /// Contrast of a time-reversed focus as a function of its window T, for the actuators of a surface.
 ///
-/// It is computed from the modes of the surface with the loads of its actuators, for targets spread over the surface away from the
+/// The contrast is computed from the modes of the surface with the loads of its actuators, for targets spread over the surface away from the
 /// rim: 1/C² is the mean over targets of (rms velocity outside the focal disc)²/(velocity at the target)² at the focal instant. For
 /// a surface of more than 2000 modes, or whose modes cannot be computed, it is the statistical contrast of [`Cavity`], for a band
 /// that begins at the first mode.

@@ -116,7 +116,7 @@ impl Plan {
         Self { ratio, accuracy: 0.25 * self.accuracy, ..self.coarser(1.0 / ratio) }
     }
 
-    /// The factor by which it is finer than the plan before.
+    /// The factor by which this plan is finer than the plan before.
     pub(super) fn ratio(&self) -> f64 {
         self.ratio
     }

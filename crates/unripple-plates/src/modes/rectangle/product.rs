@@ -25,12 +25,12 @@ impl Product {
         }
     }
 
-    /// Its mirror image in the diagonal, x and y exchanged.
+    /// Mirror image of the product in the diagonal, x and y exchanged.
     pub(crate) fn mirrored(self) -> Self {
         Self { x: self.y, y: self.x, ..self }
     }
 
-    /// Its value where the functions along x and y have these values.
+    /// Value of the deflection where the functions along x and y have these values.
     pub(crate) fn at(self, along_x: &[f64], along_y: &[f64]) -> f64 {
         let direct = along_x[self.x] * along_y[self.y];
         if self.mirror == 0.0 {
@@ -39,7 +39,7 @@ impl Product {
         self.weight() * (direct + self.mirror * along_x[self.y] * along_y[self.x])
     }
 
-    /// Its values at many points, from those of the functions along x and y (points x functions).
+    /// Values of the deflection at many points, from those of the functions along x and y (points x functions).
     pub(crate) fn fill(self, [along_x, along_y]: &[Mat<f64>; 2], values: ColMut<f64>) {
         let direct = along_x.col(self.x).iter().zip(along_y.col(self.y).iter());
         if self.mirror == 0.0 {
@@ -66,7 +66,7 @@ pub(crate) struct Symmetry {
 }
 
 impl Symmetry {
-    /// Its products, those of one function along x after the other.
+    /// Products of the class, in the order of their functions along x.
     pub(crate) fn products(self) -> impl Iterator<Item = Product> {
         let Self { x, y, mirror } = self;
         (0..x.len())

@@ -14,7 +14,7 @@ pub struct Wanted {
     pub number: usize,
     /// Number of the repeat there.
     pub repeat: usize,
-    /// Its file's name.
+    /// Name of the recording's file.
     pub file: String,
     /// Where the probe is to be, if that matters.
     pub at: Option<Point>,

@@ -12,7 +12,7 @@ use unripple_store::{Library, read_wav};
 /// The key of the library's log under which marks are kept.
 const TAKES: &str = "takes";
 
-/// And under which it is said that recordings were resampled.
+/// The key of the library's log under which it is noted that recordings were resampled.
 const RATE: &str = "rate";
 
 /// What a file is known by.

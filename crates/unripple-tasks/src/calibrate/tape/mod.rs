@@ -148,7 +148,7 @@ impl Bench<'_> {
         self.wanted.iter().filter(|one| self.there(one)).cloned().collect()
     }
 
-    /// Their files, and whether they are of the actuators.
+    /// Paths of the recordings that are there, and whether each is of the actuators.
     fn recordings(&self) -> Vec<(PathBuf, bool)> {
         self.present().iter().map(|one| (self.folder.join(&one.file), one.at.is_none())).collect()
     }

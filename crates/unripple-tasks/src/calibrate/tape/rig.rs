@@ -56,14 +56,14 @@ const AT_ONCE: usize = 32;
 /// Stores points, and in their log what they were computed from: recordings, scales and options.
 pub struct TapeShelf<'a> {
     shelf: &'a mut Shelf,
-    /// What each point is computed from, by its number.
+    /// What each point is computed from; the keys are the points' numbers.
     made: BTreeMap<usize, Value>,
     /// What is still to be logged.
     pending: BTreeMap<usize, Value>,
 }
 
 impl<'a> TapeShelf<'a> {
-    /// Stores points in a library; `made` says what each point is computed from, by its number.
+    /// Stores points in a library; `made` says what each point is computed from, with the points' numbers as keys.
     pub fn new(shelf: &'a mut Shelf, made: BTreeMap<usize, Value>) -> Self {
         Self { shelf, made, pending: BTreeMap::new() }
     }

@@ -35,7 +35,7 @@ const TELLING: usize = 3;
 /// Seconds by which actuators may differ on where playing began: less than sweeps are apart.
 const AGREE: f64 = 0.05;
 
-/// Actuators that it is found from, at most.
+/// Largest number of actuators from whose recordings of themselves the start of playing is found.
 const ASKED: usize = 16;
 
 /// Reads recordings, and aligns each to the start of playing.
