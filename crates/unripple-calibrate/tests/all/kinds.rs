@@ -18,6 +18,10 @@ const ON_TABLE: Point = Point::new(0.47, 0.33);
 const LATE: f64 = 0.05;
 const SHARE: f64 = 0.97;
 
+/// Tolerance of latency with exciters on a current, as the guide says it: their housings ring beside the modes and turn the phases of the
+/// lowest ones, which the model corrects in part.
+const LATE_OF_EXCITERS: f64 = 0.25;
+
 /// Surfaces with every kind of actuator, each with a target and a window (s), to a top frequency of films and of glass.
 fn kinds(top: f64, on_glass: f64) -> Vec<(&'static str, Surface, Point, f64)> {
     use CoilDrive::{Current, Voltage};
@@ -60,8 +64,9 @@ fn told(name: &str, found: &Found) {
     found.faults.iter().for_each(|fault| println!("    {fault}"));
 }
 
-fn right(found: &Found) -> bool {
-    found.faults.is_empty() && found.latency[0].abs() < LATE && found.share >= SHARE
+fn right(name: &str, found: &Found) -> bool {
+    let late = if name == "exciter on a current" { LATE_OF_EXCITERS } else { LATE };
+    found.faults.is_empty() && found.latency[0].abs() < late && found.share >= SHARE
 }
 
 fn whole() -> bool {
@@ -76,7 +81,7 @@ fn every_kind_calibrates_right() {
         for (name, surface, at, window) in kinds(top, on_glass) {
             let found = calibrate(&surface, None, &MeasureOptions::default(), at, window);
             told(&format!("{name}, to {} Hz", surface.emission.band[1]), &found);
-            if !right(&found) {
+            if !right(name, &found) {
                 wrong.push(format!("{name} to {top} Hz"));
             }
         }
@@ -115,7 +120,7 @@ fn unknown_surfaces_with_every_kind_calibrate() {
         let found =
             calibrate(&surface, Some(&Perturbation::default()), &MeasureOptions::default(), at, window);
         told(&format!("{name}, unknown"), &found);
-        if !right(&found) {
+        if !right(name, &found) {
             wrong.push(name);
         }
     }

@@ -34,7 +34,7 @@ impl Columns {
     }
 
     /// Figures, with their names, of these widths; sizes of text stay as they are.
-    pub fn fit<'a>(self, figures: Vec<(&'a str, Figure)>) -> Vec<(&'a str, Figure)> {
+    pub fn fit(self, figures: Vec<(&str, Figure)>) -> Vec<(&str, Figure)> {
         let wide = |figure: Figure| match self {
             Self::Own => figure,
             Self::One => Figure { width_mm: ONE_MM, columns: 1, ..figure },
