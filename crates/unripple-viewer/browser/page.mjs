@@ -49,12 +49,12 @@ export async function open(t, url, options = {}) {
 }
 
 /** Asks again and again until the answer holds, and returns it; a page's policy forbids to wait within it. */
-export async function until(what, ask, holds = Boolean) {
+export async function until(what, ask, holds = Boolean, patience = PATIENCE) {
   const began = Date.now();
   for (;;) {
     const found = await ask();
     if (holds(found)) return found;
-    if (Date.now() - began > PATIENCE) throw new Error(`waited in vain for ${what}; found last: ${JSON.stringify(found)?.slice(0, 400)}`);
+    if (Date.now() - began > patience) throw new Error(`waited in vain for ${what}; found last: ${JSON.stringify(found)?.slice(0, 400)}`);
     await setTimeout(40);
   }
 }
@@ -65,9 +65,9 @@ export function last(page, kind) {
 }
 
 /** Waits until the last message of a kind is as `holds` says; returns it. What the page says to whoever reads it is in the error. */
-export async function told(page, kind, holds = Boolean) {
+export async function told(page, kind, holds = Boolean, patience = PATIENCE) {
   try {
-    return await until(`a message: ${kind}`, () => last(page, kind), (message) => message !== null && holds(message));
+    return await until(`a message: ${kind}`, () => last(page, kind), (message) => message !== null && holds(message), patience);
   } catch (error) {
     const says = await page.locator('#connection, #toasts .toast').allInnerTexts();
     throw new Error(`${error.message}; the page says ${JSON.stringify(says)}`, { cause: error });
