@@ -54,11 +54,12 @@ impl<'a> Ground<'a> {
         let few = counted.as_ref().map_or_else(|_| by_law.modes() < 1.0, |(count, _)| *count == 0);
         if few {
             let low = surface.emission.band[0];
-            return Err(PhysicsError::Range(OutOfRange::new(
-                format!("modes of the sheet from {low} to {top} Hz"),
-                format!("at least 1 (the first is at about {first_mode_hz:.1} Hz)"),
-                0.0,
-            )));
+            let expected = match &counted {
+                Ok(_) => "at least 1".into(),
+                Err(_) => format!("at least 1 (the first is at about {first_mode_hz:.1} Hz by Weyl's law)"),
+            };
+            let what = format!("modes of the sheet from {low} to {top} Hz");
+            return Err(PhysicsError::Range(OutOfRange::new(what, expected, 0.0)));
         }
         let scale = counted.as_ref().map_or(1.0, |(count, _)| *count as f64 / by_law.modes());
         let modes = scale * by_law.modes();

@@ -310,10 +310,7 @@ fn a_band_with_fewer_modes_than_weyls_law_has_one_has_a_design() {
     assert!(d.contrast_predicted > 0.0 && d.contrast_predicted.is_finite());
     surface.emission.band = [0.0, 230.0];
     let error = design(&surface).unwrap_err().to_string();
-    assert!(
-        error.starts_with("modes of the sheet from 0 to 230 Hz: expected at least 1 (the first is"),
-        "{error}"
-    );
+    assert_eq!(error, "modes of the sheet from 0 to 230 Hz: expected at least 1, found 0");
 }
 
 #[test]
