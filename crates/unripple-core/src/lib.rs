@@ -65,7 +65,8 @@ pub use responses::{Conditions, FOCAL_RADIUS, ModalResponses, Port, Responses, S
 pub use shape::Shape;
 pub use side::Side;
 pub use surface::{
-    Actuator, ActuatorKind, Air, CoilDrive, Contact, Decay, Emission, Finger, Sheet, Surface, window_samples,
+    Actuator, ActuatorKind, Air, CoilDrive, Contact, Decay, Emission, Finger, Sheet, Surface, VoiceCoil,
+    window_samples,
 };
 pub use touch::{Phase, Touch};
 pub use uneven::{Grain, Profile, Scatterer, ScattererKind, Uneven};

@@ -191,6 +191,32 @@ impl ActuatorKind {
             Self::Piezo { .. } => "piezo",
         }
     }
+
+    /// The coil of a moving magnet or an exciter; `None` for a force and a patch, which have none.
+    pub fn coil(&self) -> Option<VoiceCoil> {
+        match *self {
+            Self::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by }
+            | Self::Exciter { force_constant, resistance, inductance, moving_mass, driven_by, .. } => {
+                Some(VoiceCoil { force_constant, resistance, inductance, moving_mass, driven_by })
+            }
+            Self::Force | Self::Piezo { .. } => None,
+        }
+    }
+}
+
+/// What the coils of all kinds of actuators have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VoiceCoil {
+    /// Force constant Bl (force per coil current), in N/A.
+    pub force_constant: f64,
+    /// Coil resistance, in Ω.
+    pub resistance: f64,
+    /// Coil inductance, in H.
+    pub inductance: f64,
+    /// Mass that moves with the sheet, of the magnet or of the coil, in kg.
+    pub moving_mass: f64,
+    /// Whether the amplifier sets the current or the voltage.
+    pub driven_by: CoilDrive,
 }
 
 /// The quantity that the amplifier of a coil controls: its current or its voltage.

@@ -4,7 +4,7 @@
 use super::Note;
 use super::digits::rounded;
 use super::ground::Ground;
-use unripple_core::{Actuator, ActuatorKind, CoilDrive, Surface};
+use unripple_core::{Actuator, ActuatorKind, CoilDrive, Surface, VoiceCoil};
 
 /// What the closed forms leave out, with the contrast that the modes with it have; `None` for ideal forces at points of a
 /// uniform sheet, of which nothing is left out.
@@ -40,12 +40,9 @@ pub(super) fn left_out(ground: &Ground<'_>) -> Option<Note> {
 
 /// Masses that move with the sheet at its actuators.
 fn masses(surface: &Surface) -> Option<String> {
-    let mass = |actuator: &Actuator| match actuator.kind {
-        ActuatorKind::Force => 0.0,
-        ActuatorKind::MovingMagnet { moving_mass, .. } | ActuatorKind::Exciter { moving_mass, .. } => {
-            moving_mass
-        }
-        ActuatorKind::Piezo { mass, .. } => mass,
+    let mass = |actuator: &Actuator| match (actuator.kind, actuator.kind.coil()) {
+        (ActuatorKind::Piezo { mass, .. }, _) => mass,
+        (_, coil) => coil.map_or(0.0, |coil| coil.moving_mass),
     };
     let found = all(surface, mass);
     (!found.is_empty()).then(|| format!("moving masses of {} mg ({})", range(&found, 1e6), actuators(&found)))
@@ -53,25 +50,10 @@ fn masses(surface: &Surface) -> Option<String> {
 
 /// Damping and inductance of coils that are driven by a voltage; a current is what it is, whatever the coil.
 fn coils(surface: &Surface) -> Option<String> {
-    let held = |actuator: &Actuator| match actuator.kind {
-        ActuatorKind::MovingMagnet {
-            force_constant,
-            resistance,
-            inductance,
-            driven_by: CoilDrive::Voltage,
-            ..
-        }
-        | ActuatorKind::Exciter {
-            force_constant,
-            resistance,
-            inductance,
-            driven_by: CoilDrive::Voltage,
-            ..
-        } => [force_constant * force_constant / resistance, inductance],
-        _ => [0.0; 2],
-    };
-    let damping = all(surface, |actuator| held(actuator)[0]);
-    let inductance = all(surface, |actuator| held(actuator)[1]);
+    let held = |actuator: &Actuator| actuator.kind.coil().filter(|coil| coil.driven_by == CoilDrive::Voltage);
+    let of_coil = |coil: VoiceCoil| coil.force_constant * coil.force_constant / coil.resistance;
+    let damping = all(surface, |actuator| held(actuator).map_or(0.0, of_coil));
+    let inductance = all(surface, |actuator| held(actuator).map_or(0.0, |coil| coil.inductance));
     if damping.is_empty() {
         return None;
     }

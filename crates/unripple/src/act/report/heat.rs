@@ -1,6 +1,6 @@
 //! Heat that a drive makes in the coils of a surface.
 
-use crate::core::{ActuatorKind, CoilDrive, Drive, Surface};
+use crate::core::{CoilDrive, Drive, Surface};
 use serde::Serialize;
 
 /// Mean heat in the coils of a surface under a drive, over the whole drive or its last period.
@@ -28,18 +28,14 @@ impl CoilHeat {
         let mut heat = Self { total_w: 0.0, largest_w: 0.0, at_most: false };
         let mut coils = 0;
         for (actuator, channel) in surface.actuators.iter().zip(drive.channels()) {
-            let (ActuatorKind::MovingMagnet { resistance, driven_by, .. }
-            | ActuatorKind::Exciter { resistance, driven_by, .. }) = actuator.kind
-            else {
-                continue;
-            };
-            let own = match driven_by {
-                CoilDrive::Current => mean_square(channel) * resistance,
-                CoilDrive::Voltage => mean_square(channel) / resistance,
+            let Some(coil) = actuator.kind.coil() else { continue };
+            let own = match coil.driven_by {
+                CoilDrive::Current => mean_square(channel) * coil.resistance,
+                CoilDrive::Voltage => mean_square(channel) / coil.resistance,
             };
             heat.total_w += own;
             heat.largest_w = heat.largest_w.max(own);
-            heat.at_most |= driven_by == CoilDrive::Voltage;
+            heat.at_most |= coil.driven_by == CoilDrive::Voltage;
             coils += 1;
         }
         (coils > 0).then_some(heat)

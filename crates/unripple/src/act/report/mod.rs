@@ -156,14 +156,9 @@ impl Report {
 
 /// Unit of the drive of an actuator of this kind.
 pub fn unit(kind: &ActuatorKind) -> &'static str {
-    match kind {
-        ActuatorKind::Force => "N",
-        ActuatorKind::Piezo { .. } => "V",
-        ActuatorKind::MovingMagnet { driven_by, .. } | ActuatorKind::Exciter { driven_by, .. } => {
-            match driven_by {
-                CoilDrive::Current => "A",
-                CoilDrive::Voltage => "V",
-            }
-        }
+    match (kind, kind.coil().map(|coil| coil.driven_by)) {
+        (ActuatorKind::Force, _) => "N",
+        (_, Some(CoilDrive::Current)) => "A",
+        (_, Some(CoilDrive::Voltage) | None) => "V",
     }
 }
