@@ -107,7 +107,16 @@ pub fn responses_on(
 pub fn stepped_hz(surface: &Surface, max_hz: f64) -> Result<f64, PhysicsError> {
     let loaded = transducers(surface)?.iter().filter_map(|t| t.load.as_ref()).any(Load::acts);
     let reach = if loaded { ResponseOptions::default().reach } else { 1.0 };
-    Ok((reach * max_hz).min(0.45 * surface.emission.rate).max(max_hz))
+    Ok(sampled_hz(surface, reach * max_hz, max_hz))
+}
+
+/// Largest frequency of the modes that samples stand for, as a share of the sample rate: above half of it, samples take a mode for one as
+/// far below, and filters need some room. Doubled, that would happen.
+const OF_RATE: f64 = 0.45;
+
+/// The frequency `hz` up to which modes are wanted, at most 0.45 of the surface's sample rate, but never below `least`; all in Hz.
+pub fn sampled_hz(surface: &Surface, hz: f64, least: f64) -> f64 {
+    hz.min(OF_RATE * surface.emission.rate).max(least)
 }
 
 /// A checked request for responses.

@@ -2,21 +2,17 @@
 
 use super::{ActError, Note, Report};
 use crate::core::Surface;
-use crate::physics::PhysicsError;
+use crate::physics::{PhysicsError, sampled_hz};
 
 /// Multiple of the band up to which the modes go that drives are evaluated on by default. On the modes that it was computed from a
 /// drive looks better than on a sheet, which has modes above as well. Doubled, there are up to four times as many modes to compute.
 pub const JUDGED_BANDS: f64 = 2.0;
 
-/// Largest frequency of these modes as a share of the sample rate, the same as in the simulation in the time domain
-/// ([`stepped_hz`](crate::physics::stepped_hz)): above half the rate, samples take a mode for one as far below it.
-const OF_RATE: f64 = 0.45;
-
 /// Highest frequency (Hz) of the modes that drives are evaluated on: `bands` times the top of the surface's band, at most 0.45 of its
 /// sample rate, but never below the top of the band.
 pub fn judged_hz(surface: &Surface, bands: f64) -> f64 {
-    let (top, rate) = (surface.emission.band[1], surface.emission.rate);
-    (bands * top).min(OF_RATE * rate).max(top)
+    let top = surface.emission.band[1];
+    sampled_hz(surface, bands * top, top)
 }
 
 /// The modes that a drive was evaluated on.
