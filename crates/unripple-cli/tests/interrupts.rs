@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{Scratch, run};
+use common::{SMALL_FILM, Scratch, run};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -16,25 +16,6 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 use unripple_store::{Library, PointState, load_surface, to_toml};
-
-/// Two actuators, few modes: quick.
-const FILM: &str = r#"format = 1
-name = "A small film"
-[outline]
-rectangle_mm = [150, 150]
-[sheet]
-material = "BoPET"
-thickness_mm = 0.125
-tension_n_per_m = 200
-decay_time_ms = 70
-[drive]
-band_hz = [0, 700]
-sample_rate_hz = 48000
-[[actuator]]
-at_mm = [12, 31]
-[[actuator]]
-at_mm = [121, 17]
-"#;
 
 /// A command that takes longer is interrupted before this, in ms.
 const LONGEST: u64 = 2500;
@@ -113,7 +94,7 @@ fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 /// A folder with things of the user's and of earlier runs.
 fn folder() -> Scratch {
     let scratch = Scratch::new("interrupts");
-    let film = scratch.file("film.toml", FILM);
+    let film = scratch.file("film.toml", SMALL_FILM);
     scratch.file("notes.txt", "an afternoon");
     // One whose actuators hear each other well, for a fit.
     let mut surface = load_surface("hudin-2012").unwrap();
@@ -299,7 +280,7 @@ fn wait_for(mut come: impl FnMut() -> bool) {
 #[test]
 fn a_second_ctrl_c_does_not_wait() {
     let scratch = Scratch::new("second");
-    let film = scratch.file("film.toml", FILM);
+    let film = scratch.file("film.toml", SMALL_FILM);
     let [taps, kept] = ["taps.jsonl", "kept.wav"].map(|name| scratch.join(name));
     let (full, _nobody) = blocked();
     let mut command = common::program();
@@ -332,7 +313,7 @@ fn killed_runs_lose_nothing_and_the_next_one_tidies_up() {
     println!("seed {seed}, {rounds} rounds");
     let mut dice = Dice(seed);
     let scratch = Scratch::new("killed");
-    let film = scratch.file("film.toml", FILM);
+    let film = scratch.file("film.toml", SMALL_FILM);
     let library = scratch.join("lib");
     assert!(
         run(&["respond", &film, "--grid-mm", "20", "--length-ms", "20", "-o", &library]).status.success()

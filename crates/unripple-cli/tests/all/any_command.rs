@@ -4,7 +4,7 @@
 //! without bound is an abort here too, and a loop without end is ended.
 #![cfg(unix)]
 
-use crate::any_file::file;
+use crate::any_file::{chance, file, pick};
 use crate::common::{Scratch, program, schema};
 use std::collections::BTreeMap;
 use std::os::unix::process::ExitStatusExt;
@@ -202,10 +202,6 @@ const KINDS: &[Kind] = &[
 /// Indices into [`KINDS`] of what others read the results of: a focus and a library.
 const FIRST: [usize; 2] = [4, 3];
 
-fn pick<T: Copy>(random: &mut Random, of: &[T]) -> T {
-    of[((random.uniform() * of.len() as f64) as usize).min(of.len() - 1)]
-}
-
 /// Random words for a surface of some extent, in mm.
 struct Words<'a> {
     random: &'a mut Random,
@@ -214,7 +210,7 @@ struct Words<'a> {
 
 impl Words<'_> {
     fn is(&mut self, share: f64) -> bool {
-        self.random.uniform() < share
+        chance(self.random, share)
     }
 
     fn number(&mut self, low: f64, high: f64) -> String {

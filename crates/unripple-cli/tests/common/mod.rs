@@ -8,6 +8,25 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+/// A film of few modes with two actuators: quick, and a sound server has as many ports.
+pub const SMALL_FILM: &str = r#"format = 1
+name = "A small film"
+[outline]
+rectangle_mm = [150, 150]
+[sheet]
+material = "BoPET"
+thickness_mm = 0.125
+tension_n_per_m = 200
+decay_time_ms = 70
+[drive]
+band_hz = [0, 700]
+sample_rate_hz = 48000
+[[actuator]]
+at_mm = [12, 31]
+[[actuator]]
+at_mm = [121, 17]
+"#;
+
 /// A folder of this test's own, gone afterwards.
 pub struct Scratch(PathBuf);
 

@@ -1,6 +1,6 @@
 //! The program, started as people start it, reached as others reach it, and looked at from outside.
 
-use crate::common::{self, Scratch};
+use crate::common::{self, SMALL_FILM, Scratch};
 use crate::link::{ANSWER, Link};
 use serde_json::{Value, json};
 use std::fs::{self, File};
@@ -10,25 +10,6 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use unripple_store::read_wav;
-
-/// Two actuators, few modes: quick, and as many as a server has ports.
-const FILM: &str = r#"format = 1
-name = "A small film"
-[outline]
-rectangle_mm = [150, 150]
-[sheet]
-material = "BoPET"
-thickness_mm = 0.125
-tension_n_per_m = 200
-decay_time_ms = 70
-[drive]
-band_hz = [0, 700]
-sample_rate_hz = 48000
-[[actuator]]
-at_mm = [12, 31]
-[[actuator]]
-at_mm = [121, 17]
-"#;
 
 /// Pulses while a finger rests, as the viewer plays them by itself, but at shorter intervals.
 const EFFECT: &str = "format = 1\n[[effect]]\nkind = \"pulse-train\"\nrate_hz = 20\n";
@@ -102,7 +83,7 @@ impl Program {
     /// Starts the program on a server, and waits until it plays.
     pub fn start(task: Task, server: &str) -> Self {
         let scratch = Scratch::new("sitting");
-        let (film, effect) = (scratch.file("film.toml", FILM), scratch.file("pulses.toml", EFFECT));
+        let (film, effect) = (scratch.file("film.toml", SMALL_FILM), scratch.file("pulses.toml", EFFECT));
         let (taps, folder) = (scratch.join(TAPS), scratch.path().display().to_string());
         let own = match task {
             Task::Play => vec!["play", &film, "--effect", &effect, "--record", &taps, "--json"],

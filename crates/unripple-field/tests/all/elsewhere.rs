@@ -1,25 +1,13 @@
 //! Where the motion outside is strongest and how much of the surface is outside, how fast the motion is and how long it goes on.
 
 use crate::common;
+use crate::small::small;
 
-use common::{Film, Sines, drive, reversed, velocity};
+use common::{Sines, drive, reversed, velocity};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use unripple_core::{ModalResponses, Point, Pole, Responses};
 use unripple_field::{Aim, Field, MeasureOptions, measure};
-
-/// A small film: quick, and with room outside the focal disc.
-fn small() -> Film {
-    Film {
-        width: 0.10,
-        height: 0.08,
-        top_hz: 1500.0,
-        rate: 12e3,
-        decay_time: 20e-3,
-        ports: vec![Point::new(0.013, 0.021), Point::new(0.081, 0.034), Point::new(0.046, 0.071)],
-        ..Film::paper()
-    }
-}
 
 /// The first modes of the small film with other poles, at another rate.
 fn retuned(poles: Vec<Pole>, rate: f64) -> ModalResponses {

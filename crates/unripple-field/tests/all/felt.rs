@@ -1,6 +1,7 @@
 //! What is felt, against closed forms and the sums that define it.
 
 use crate::common;
+use crate::small::small;
 use unripple_linalg::{Mat, product};
 
 use common::{Film, displacement, drive, reversed};
@@ -10,19 +11,6 @@ use std::ops::Range;
 use std::sync::Arc;
 use unripple_core::{ModalResponses, Point, Pole, Responses, SampledResponses};
 use unripple_field::{Aim, Field, MeasureOptions, Measured, TargetFigures, Threshold, measure};
-
-/// A small film: quick, and with room outside the focal disc.
-fn small() -> Film {
-    Film {
-        width: 0.10,
-        height: 0.08,
-        top_hz: 1500.0,
-        rate: 12e3,
-        decay_time: 20e-3,
-        ports: vec![Point::new(0.013, 0.021), Point::new(0.081, 0.034), Point::new(0.046, 0.071)],
-        ..Film::paper()
-    }
-}
 
 /// One mode of a square film, lossless or not.
 fn single(pole: Pole, rate: f64) -> ModalResponses {

@@ -7,3 +7,4 @@ mod errors;
 mod felt;
 mod oracle;
 mod property;
+mod small;

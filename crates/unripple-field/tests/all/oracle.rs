@@ -1,6 +1,7 @@
 //! Fields and figures against closed forms, the defining sums, and another kind of responses.
 
 use crate::common;
+use crate::small::small;
 use unripple_linalg::{Mat, product};
 
 use common::{Film, displacement, drive, reversed, velocity};
@@ -8,19 +9,6 @@ use std::f64::consts::PI;
 use std::ops::Range;
 use unripple_core::{ModalResponses, Point, Pole, Responses, SampledResponses};
 use unripple_field::{Aim, Field, Grid, MeasureOptions, TakenOn, Trace, measure};
-
-/// A small film: quick, and with room outside the focal disc.
-fn small() -> Film {
-    Film {
-        width: 0.10,
-        height: 0.08,
-        top_hz: 1500.0,
-        rate: 12e3,
-        decay_time: 20e-3,
-        ports: vec![Point::new(0.013, 0.021), Point::new(0.081, 0.034), Point::new(0.046, 0.071)],
-        ..Film::paper()
-    }
-}
 
 /// Numbers between −1 and 1 without order, the same on every run.
 fn noise(count: usize, seed: u64) -> Vec<f64> {

@@ -12,7 +12,7 @@ struct Shape {
     extent: [f64; 2],
 }
 
-fn pick<'a>(random: &mut Random, of: &[&'a str]) -> &'a str {
+pub fn pick<T: Copy>(random: &mut Random, of: &[T]) -> T {
     of[((random.uniform() * of.len() as f64) as usize).min(of.len() - 1)]
 }
 

@@ -1,29 +1,13 @@
 //! The session as pages meet it: words in, messages and work out.
 
 use super::*;
-use crate::simulation::PULSES;
+use crate::simulation::tests::spec;
 use serde_json::Value;
-use unripple::focus::Method;
-use unripple::physics::design::papers_surface;
 use unripple_tasks::{Progress, Silent};
 
 fn session() -> Session {
-    let mut surface = papers_surface();
-    surface.emission.band[1] = 700.0;
-    let spec = Spec {
-        surface,
-        stored: None,
-        without_scale: false,
-        method: Method::TimeReversal,
-        effect: PULSES.into(),
-        window: None,
-        rate: 10.0,
-        load: false,
-        device: None,
-        follow: None,
-    };
     let told = Settled { source: "small".into(), device: "virtual".into(), address: None };
-    Session::new(Instrument::build(spec, &mut Silent).unwrap(), told)
+    Session::new(Instrument::build(spec(), &mut Silent).unwrap(), told)
 }
 
 /// A page's words, as its link reads them.

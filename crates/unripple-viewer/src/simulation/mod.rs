@@ -13,7 +13,7 @@ mod tape;
 mod transport;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use instrument::{CELLS, Follow, Instrument, PULSES, Spec, check_effect};
 pub use lens::Cells;

@@ -8,7 +8,8 @@ use unripple::focus::Method;
 use unripple::physics::design::papers_surface;
 use unripple_tasks::Silent;
 
-fn spec() -> Spec {
+/// A small film that is simulated alone, without any device.
+pub(crate) fn spec() -> Spec {
     let mut surface: Surface = papers_surface();
     surface.emission.band[1] = 700.0;
     Spec {
