@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { drawn, open, told, unharmed } from './page.mjs';
+import { BY_THE_CLOCK, PATIENCE } from './patience.mjs';
 import { serve } from './program.mjs';
 
 const MESSAGES = [
@@ -22,12 +23,12 @@ test('malformed messages get a fault each and harm nothing', async (t) => {
   const { url } = await serve(t, 'hudin-2012');
   const page = await open(t, url);
   const { toml } = await told(page, 'surface');
-  const unanswered = await page.evaluate(async (messages) => {
+  const unanswered = await page.evaluate(async ([messages, longest]) => {
     const silent = [];
     for (const message of [...messages, new Uint8Array([1, 2, 3])]) {
       const socket = new WebSocket(`ws://${location.host}/link`);
       const answered = await new Promise((done) => {
-        const late = setTimeout(() => done(false), 20000);
+        const late = setTimeout(() => done(false), longest);
         const end = (value) => {
           clearTimeout(late);
           done(value);
@@ -43,7 +44,7 @@ test('malformed messages get a fault each and harm nothing', async (t) => {
       if (typeof answered !== 'string' || (answered === 'closed' && message.length < 65536)) silent.push([String(message).slice(0, 80), answered]);
     }
     return silent;
-  }, MESSAGES);
+  }, [MESSAGES, BY_THE_CLOCK * PATIENCE]);
   assert.deepEqual(unanswered, []);
   assert.equal((await told(page, 'surface')).toml, toml);
   const { state, fingers } = await told(page, 'status');

@@ -7,6 +7,7 @@ import { createRequire } from 'node:module';
 import { delimiter, join } from 'node:path';
 import { after } from 'node:test';
 import { setTimeout } from 'node:timers/promises';
+import { BY_THE_CLOCK, PATIENCE, wait } from './patience.mjs';
 import { packages, screenshots } from './program.mjs';
 
 const { chromium } = createRequire(packages)('playwright-core');
@@ -16,9 +17,6 @@ const ARGS = [
   '--disable-component-update', '--disable-sync', '--enable-unsafe-swiftshader',
 ];
 const NAMES = ['chromium', 'chromium-browser', 'google-chrome'];
-
-/** Longest that anything of the page is waited for, in ms: a busy machine is slow, not wrong. */
-export const PATIENCE = 20000;
 
 let browser = null;
 after(async () => (await browser)?.close());
@@ -35,7 +33,7 @@ export async function open(t, url, options = {}) {
   const context = await (await launch()).newContext({ viewport: { width: 1280, height: 860 }, ...options });
   t.after(() => context.close());
   const page = await context.newPage();
-  page.setDefaultTimeout(PATIENCE);
+  page.setDefaultTimeout(BY_THE_CLOCK * PATIENCE);
   page.faults = [];
   page.on('console', (line) => line.type() === 'error' && page.faults.push(`console: ${line.text()}`));
   page.on('pageerror', (error) => page.faults.push(`thrown: ${error.message}`));
@@ -50,11 +48,11 @@ export async function open(t, url, options = {}) {
 
 /** Asks again and again until the answer holds, and returns it; a page's policy forbids to wait within it. */
 export async function until(what, ask, holds = Boolean, patience = PATIENCE) {
-  const began = Date.now();
+  const waiting = wait(patience);
   for (;;) {
     const found = await ask();
     if (holds(found)) return found;
-    if (Date.now() - began > patience) throw new Error(`waited in vain for ${what}; found last: ${JSON.stringify(found)?.slice(0, 400)}`);
+    if (waiting.over()) throw new Error(`waited in vain for ${what}; found last: ${JSON.stringify(found)?.slice(0, 400)}`);
     await setTimeout(40);
   }
 }

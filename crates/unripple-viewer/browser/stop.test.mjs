@@ -2,7 +2,8 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { PATIENCE, open, shoot, told, unharmed, until } from './page.mjs';
+import { open, shoot, told, unharmed, until } from './page.mjs';
+import { PATIENCE } from './patience.mjs';
 import { serve } from './program.mjs';
 
 /** A surface that needs a mesh, and modes up to twice its band for a measurement: that takes many seconds. */
