@@ -28,6 +28,10 @@ const PERIODS: f64 = 2.0;
 /// decay times of other frequencies in.
 const NEAR: f64 = 1.3;
 
+/// Multiple of the highest resonance of exciters' housings above which tones are used. Nearer to it, what an exciter senses turns its phase
+/// within the width of a tone, more than the model can correct; doubled, tones of the lowest modes are lost.
+const CLEAR_OF_HOUSINGS: f64 = 3.0;
+
 /// Longest part of the model's responses, in s, in which tones are searched, and (`IN_CELL`) number of them in a cell of the band.
 /// Longer responses take longer and contain the same tones.
 const SAID: f64 = 2.0;
@@ -115,8 +119,9 @@ fn disagreement(sorted: &[f64]) -> f64 {
 /// First estimate, to about a sample: the delays between recorded and modelled responses, ascending, at least one; and the sign of each
 /// actuator, 0 if it is silent.
 ///
-/// From the response of each actuator at itself; where voltage-driven coils damp the surface, from responses at other actuators, since
-/// the beginning of such a coil's response at itself is mostly strongly damped motion that no mode of the band describes.
+/// From the response of each actuator at itself; where voltage-driven coils or the housings of exciters damp the surface, from responses at
+/// other actuators, since the beginning of such an actuator's response at itself is mostly strongly damped motion that no mode of the band
+/// describes.
 fn roughly(
     heard: &[Vec<Vec<f64>>],
     some: &[usize],
@@ -125,7 +130,7 @@ fn roughly(
     band: Band,
 ) -> Result<(Vec<f64>, Vec<f64>), CalibrateError> {
     let (mut delays, mut signs) = (Vec::new(), vec![1.0; some.len()]);
-    let away = usize::from(model.closed());
+    let away = usize::from(model.closed() || highest_housing(model) > 0.0);
     for b in 0..some.len() {
         let a = (b + away) % some.len();
         let found = &heard[b][a];
@@ -160,7 +165,8 @@ fn parts(model: &Hearing, band: Band) -> Vec<(Part, usize)> {
     let place = |hz: f64| known.partition_point(|tone| tone[0] < hz);
     let top = band.high[0];
     let lowest = known.first().map_or(0.0, |tone| tone[0]);
-    let mut low = band.low[1].max(0.8 * lowest).min(0.9 * top);
+    let mut low =
+        band.low[1].max(0.8 * lowest).max(CLEAR_OF_HOUSINGS * highest_housing(model)).min(0.9 * top);
     let mut parts = Vec::new();
     while low < top {
         let rates = known[place(low)..place(NEAR * low)].iter().map(|tone| tone[1]);
@@ -178,6 +184,12 @@ fn parts(model: &Hearing, band: Band) -> Vec<(Part, usize)> {
         low = high;
     }
     parts
+}
+
+/// Highest resonance of the exciters' housings on their springs, in Hz; 0 without exciters.
+fn highest_housing(model: &Hearing) -> f64 {
+    let housings = model.sensors().iter().filter_map(|sensor| sensor.housing);
+    housings.map(|housing| (housing.stiffness / housing.mass).sqrt() / TAU).fold(0.0, f64::max)
 }
 
 /// The tones of all parts of the band, with the phase of circuits removed and turned so that the velocity after an impulse at time 0

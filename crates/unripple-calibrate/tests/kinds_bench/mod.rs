@@ -51,7 +51,7 @@ pub fn coil(force_constant: f64, inductance: f64, moving_mass: f64, driven_by: C
 }
 
 /// An exciter for a film: a housing of 2 g that resonates at 40 Hz, below the film's modes, on a coil of 7 mg.
-pub fn exciter(driven_by: CoilDrive) -> ActuatorKind {
+pub fn exciter(driven_by: CoilDrive, quality_factor: f64) -> ActuatorKind {
     ActuatorKind::Exciter {
         force_constant: 0.5,
         resistance: 6.2,
@@ -59,7 +59,7 @@ pub fn exciter(driven_by: CoilDrive) -> ActuatorKind {
         moving_mass: 7e-6,
         housing_mass: 2e-3,
         resonance: 40.0,
-        quality_factor: 10.0,
+        quality_factor,
         driven_by,
     }
 }
