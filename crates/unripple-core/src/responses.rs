@@ -102,7 +102,8 @@ pub struct ModalResponses {
     pub conditions: Conditions,
 }
 
-/// Sampled impulse responses at fixed points, as float32 values in m/s per unit impulse, stored as `[point][actuator][sample]`.
+/// Sampled impulse responses at fixed points, as float32 values in m/s per unit impulse, stored as `[point][actuator][sample]`. Clones
+/// share the samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampledResponses {
     /// The actuators, in channel order.
@@ -112,7 +113,7 @@ pub struct SampledResponses {
     /// Frequency band, sample rate and region for which the responses are valid.
     pub conditions: Conditions,
     samples: usize,
-    data: Vec<f32>,
+    data: Arc<Vec<f32>>,
 }
 
 impl SampledResponses {
@@ -132,12 +133,17 @@ impl SampledResponses {
         if data.len() != expected {
             return Err(CoreError::Size { what: "response samples", expected, found: data.len() });
         }
-        Ok(Self { ports, points, conditions, samples, data })
+        Ok(Self { ports, points, conditions, samples, data: Arc::new(data) })
     }
 
     /// Number of samples in each response.
     pub fn samples(&self) -> usize {
         self.samples
+    }
+
+    /// All samples, in m/s per unit impulse, as `[point][actuator][sample]`.
+    pub fn data(&self) -> &[f32] {
+        &self.data
     }
 
     /// The response from one actuator to one point, given by their indices: samples in m/s per unit impulse.
@@ -156,12 +162,13 @@ impl SampledResponses {
             return Err(CoreError::Size { what: "points that are chosen from", expected, found: found + 1 });
         }
         let each = self.ports.len() * self.samples;
+        let data = chosen.iter().flat_map(|point| &self.data[point * each..][..each]).copied().collect();
         Ok(Self {
             ports: self.ports.clone(),
             points: chosen.iter().map(|point| self.points[*point]).collect(),
             conditions: self.conditions.clone(),
             samples: self.samples,
-            data: chosen.iter().flat_map(|point| &self.data[point * each..][..each]).copied().collect(),
+            data: Arc::new(data),
         })
     }
 
@@ -180,7 +187,7 @@ impl SampledResponses {
             }
         }
         self.points.extend(other.points);
-        self.data.extend(other.data);
+        Arc::make_mut(&mut self.data).extend_from_slice(&other.data);
         Ok(self)
     }
 
