@@ -1,6 +1,6 @@
 //! Responses from the model of a surface, and figures of a drive's field on it.
 
-use crate::{Progress, TaskError, go_on};
+use crate::{Progress, Solved, TaskError, go_on};
 use unripple::act;
 use unripple::core::{Contact, Responses, Surface};
 use unripple::field::{Aim, Field};
@@ -27,7 +27,7 @@ pub struct Models {
 }
 
 /// The responses that a drive is evaluated on, and how far their modes go: up to `asked` (Hz), or by default as [`Judging::of`] says.
-/// `known` are the responses of the surface from the modes of its band, where they have been computed.
+/// What has been `solved` before is not computed again.
 ///
 /// # Errors
 /// Those of [`act::model`].
@@ -35,18 +35,15 @@ pub fn models(
     surface: &Surface,
     asked: Option<f64>,
     contacts: &[Contact],
-    known: Option<&Responses>,
+    solved: &Solved,
 ) -> Result<(Models, Judging), TaskError> {
-    let solved = Judging::of(surface, asked, |hz| {
-        let free = match known.filter(|_| hz == surface.emission.band[1]) {
-            Some(known) => known.clone(),
-            None => act::model(surface, Some(hz), &[])?,
-        };
+    let found = Judging::of(surface, asked, |hz| {
+        let free = solved.model(surface, Some(hz), &[])?;
         let touched = !contacts.is_empty();
-        let under = touched.then(|| act::model(surface, Some(hz), contacts)).transpose()?;
+        let under = touched.then(|| solved.model(surface, Some(hz), contacts)).transpose()?;
         Ok(Models { free, under })
     });
-    Ok(solved?)
+    Ok(found?)
 }
 
 /// Evaluates the field of a drive at the aims, which are places and instants. `period` (s) is that of a repeated drive. Traces end at

@@ -1,21 +1,27 @@
 //! The input of tasks that work on either a surface or a library of responses.
 
-use crate::{Progress, SurfaceAsk, TaskError, between, judge, own};
+use crate::{Progress, Solved, SurfaceAsk, TaskError, between, own};
 use std::path::PathBuf;
 use unripple::act::Note;
 use unripple::core::{Point, Responses, SampledResponses, Surface};
 use unripple_calibrate::Interpolation;
 use unripple_store::{Library, surface_files};
 
-/// Input of a task: a surface, whose responses are computed, or a library of stored responses.
+/// Input of a task: a surface, whose responses are computed, or a library of stored responses. Clones share the responses.
+#[derive(Clone, Debug)]
 pub struct Source {
     /// The surface; for a library, the one that it was made for.
     pub surface: Surface,
     /// The stored responses, if the input is a library.
     pub stored: Option<Stored>,
+    /// Responses of the surface that were computed before, if they are to be used instead of those of its band.
+    pub computed: Option<Responses>,
+    /// What has been computed from modes, of this surface and of others.
+    pub solved: Solved,
 }
 
 /// Responses of a library, with remarks on them.
+#[derive(Clone, Debug)]
 pub struct Stored {
     /// Responses of the finished points that can be read.
     pub responses: SampledResponses,
@@ -73,7 +79,7 @@ pub fn open(ask: &SurfaceAsk, progress: &mut dyn Progress) -> Result<Source, Tas
 pub fn open_again(ask: &SurfaceAsk) -> Result<Source, TaskError> {
     match ask {
         SurfaceAsk::Name(name) if Library::is_at(name) => library(name),
-        _ => Ok(Source { surface: ask.load()?, stored: None }),
+        _ => Ok(Source::of(ask.load()?)),
     }
 }
 
@@ -122,7 +128,7 @@ fn library(name: &str) -> Result<Source, TaskError> {
     }
     let told = format!("the {points} points of {name}");
     let without_scale = library.without_scale().map(str::to_owned);
-    Ok(Source { surface, stored: Some(Stored { responses, told, notes, without_scale }) })
+    Ok(Source::sampled(surface, Stored { responses, told, notes, without_scale }))
 }
 
 /// Paths that are read for a surface or a library.
@@ -141,6 +147,27 @@ pub type Told = (String, Vec<Note>);
 const LISTED: usize = 5;
 
 impl Source {
+    /// A surface, whose responses are computed when they are needed.
+    pub fn of(surface: Surface) -> Self {
+        Self { surface, stored: None, computed: None, solved: Solved::default() }
+    }
+
+    /// A surface with responses in modal form that were computed for it.
+    pub fn computed(surface: Surface, responses: Responses) -> Self {
+        Self { computed: Some(responses), ..Self::of(surface) }
+    }
+
+    /// Sampled responses, with the surface that they are of.
+    pub fn sampled(surface: Surface, stored: Stored) -> Self {
+        Self { stored: Some(stored), ..Self::of(surface) }
+    }
+
+    /// The same, where what others have solved is not computed again.
+    #[must_use]
+    pub fn with(self, solved: &Solved) -> Self {
+        Self { solved: solved.clone(), ..self }
+    }
+
     /// The shortest wavelength in a library's band, in m; `None` for a surface.
     pub fn lambda_min(&self) -> Option<f64> {
         self.stored.as_ref().map(|stored| stored.responses.conditions.lambda_min)
@@ -151,21 +178,22 @@ impl Source {
         self.stored.as_ref().and_then(|stored| stored.without_scale.clone())
     }
 
-    /// The surface and its responses within the band; for a library also a phrase and notes about its responses. A library's responses are
-    /// completed by interpolation (`way`) at `places`, in m.
+    /// The surface and its responses: those that were computed before, or those within the band; for a library also a phrase and notes about
+    /// its responses. A library's responses are completed by interpolation (`way`) at `places`, in m.
     pub fn respond(
         self,
         places: &[Point],
         way: Interpolation,
     ) -> Result<(Surface, Responses, Option<Told>), TaskError> {
-        match self.stored {
-            Some(Stored { responses, told, mut notes, .. }) => {
+        match (self.stored, self.computed) {
+            (Some(Stored { responses, told, mut notes, .. }), _) => {
                 let (responses, more) = between::completed(responses, &self.surface, places, way)?;
                 notes.extend(more);
                 Ok((self.surface, Responses::Sampled(responses), Some((told, notes))))
             }
-            None => {
-                let responses = judge::model(&self.surface, None, &[])?;
+            (None, Some(computed)) => Ok((self.surface, computed, None)),
+            (None, None) => {
+                let responses = self.solved.model(&self.surface, None, &[])?;
                 Ok((self.surface, responses, None))
             }
         }

@@ -53,7 +53,7 @@ fn measured(
             (surface, (Models { free, under: None }, None), stored)
         }
         None => {
-            let (models, judging) = judge::models(&source.surface, ask.judge_hz, &contacts, None)?;
+            let (models, judging) = judge::models(&source.surface, ask.judge_hz, &contacts, &source.solved)?;
             (source.surface, (models, Some(judging)), None)
         }
     };

@@ -6,7 +6,7 @@ use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
 use crate::{Progress, TaskError, fingers, folder, go_on, judge, source};
-use unripple::act::{self, Act, Aware, Note, chosen_window};
+use unripple::act::{self, Act, Aware, Note};
 use unripple::core::{Decay, Surface};
 use unripple::focus::{LossCorrection, Method, Options};
 use unripple::physics::Medium;
@@ -47,6 +47,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     let plant = ask.on.as_ref().map(|on| on.load()).transpose()?;
     go_on(progress)?;
     let unscaled = source.without_scale().filter(|_| plant.is_none());
+    let solved = source.solved.clone();
     let known = source.lambda_min();
     let lambda_min = known
         .unwrap_or_else(|| Medium::of(&source.surface.sheet).lambda_min(source.surface.emission.band[1]));
@@ -55,7 +56,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     progress.stage("responses");
     let (surface, responses, stored) = source.respond(&places, ask.between)?;
     let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
-    let chosen = asked.is_none().then(|| chosen_window(&surface, &responses));
+    let chosen = asked.is_none().then(|| solved.window(&surface, &responses));
     let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
     carries(responses.conditions(), window, "window_s")?;
     let settings = settings(ask, &surface, window)?;
@@ -72,11 +73,10 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", judged_surface)?;
     // A library is evaluated on itself.
     let modelled = plant.is_some() || stored.is_none();
-    let known = plant.is_none().then_some(&responses);
-    let solved =
-        modelled.then(|| judge::models(judged_surface, ask.judge_hz, &contacts, known)).transpose()?;
-    let free = solved.as_ref().map_or(&responses, |(models, _)| &models.free);
-    let under = solved.as_ref().and_then(|(models, _)| models.under.as_ref()).unwrap_or(free);
+    let models =
+        modelled.then(|| judge::models(judged_surface, ask.judge_hz, &contacts, &solved)).transpose()?;
+    let free = models.as_ref().map_or(&responses, |(models, _)| &models.free);
+    let under = models.as_ref().and_then(|(models, _)| models.under.as_ref()).unwrap_or(free);
     let level = ask.level.level_on(unscaled.as_deref())?;
     let act = Act { surface: judged_surface, responses: under, targets: &targets, options: &settings, level };
     let on = act.readouts();
@@ -88,7 +88,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     report.fingers = act::felt(&contacts, judged_surface, [under, free], &drive, sent.until)?;
     report.notes.extend(chosen.map(|chosen| Note { topic: "window", text: chosen.text() }));
     report.notes.extend(restored);
-    solved.iter().for_each(|(_, judging)| judging.tell(judged_surface, &mut report));
+    models.iter().for_each(|(_, judging)| judging.tell(judged_surface, &mut report));
     if let Some((told, notes)) = stored {
         report.notes.extend(notes.into_iter().chain(act::nearby(&focused, &targets)));
         report.judged_on.get_or_insert(told);

@@ -14,8 +14,12 @@ pub fn recommended_window(surface: &Surface, responses: &Responses) -> f64 {
 ///
 /// See [`recommended_window`] for the window alone.
 pub fn chosen_window(surface: &Surface, responses: &Responses) -> Recommended {
-    let windows = Windows::of(surface);
-    windows.recommended().within(lasting(responses), &windows)
+    chosen_among(&Windows::of(surface), responses)
+}
+
+/// The default window as [`chosen_window`] gives it, for a surface whose contrast with each of the `windows` (s) has been computed.
+pub fn chosen_among(windows: &Windows, responses: &Responses) -> Recommended {
+    windows.recommended().within(lasting(responses), windows)
 }
 
 /// Length of the responses, in seconds, which is the longest window that they can be used with; infinite for modal

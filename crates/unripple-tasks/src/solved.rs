@@ -1,0 +1,99 @@
+//! Responses and windows that have been computed from modes, kept for whoever needs the same ones again.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use unripple::act::{self, ActError};
+use unripple::core::{Contact, Responses, Surface};
+use unripple::physics::design::{Recommended, Windows};
+
+/// How many are kept: those of the band, those up to two and three times its top, on which drives are evaluated, and those under fingers.
+/// Twice as many would hold twice the memory.
+const KEPT: usize = 4;
+
+/// Responses of surfaces, computed from their modes, of which the last four are kept, and the windows of the last surface. Clones share
+/// them.
+///
+/// ```
+/// use unripple_tasks::Solved;
+///
+/// let film = unripple_store::load_surface("hudin-2012")?;
+/// let solved = Solved::default();
+/// let first = solved.model(&film, Some(3000.0), &[])?;
+/// // Not computed again: the top of the band is 3 kHz.
+/// let again = solved.model(&film, None, &[])?;
+/// assert_eq!(first.ports(), again.ports());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Solved(Arc<Mutex<Kept>>);
+
+/// What has been solved, in the order in which it was needed last.
+#[derive(Debug, Default)]
+struct Kept {
+    models: Vec<Model>,
+    windows: Option<(Surface, Windows)>,
+}
+
+/// One set of responses, and what it was computed for.
+#[derive(Debug)]
+struct Model {
+    surface: Surface,
+    /// Highest frequency of the modes, in Hz.
+    top: f64,
+    contacts: Vec<Contact>,
+    responses: Responses,
+}
+
+impl Solved {
+    /// The responses that [`act::model`] computes, up to `max_hz` (Hz) or by default those of the surface's band, under fingers at
+    /// `contacts`. Those that are kept are returned as they are.
+    ///
+    /// # Errors
+    /// Those of [`act::model`].
+    pub fn model(
+        &self,
+        surface: &Surface,
+        max_hz: Option<f64>,
+        contacts: &[Contact],
+    ) -> Result<Responses, ActError> {
+        let top = max_hz.unwrap_or(surface.emission.band[1]);
+        if let Some(found) = self.find(surface, top, contacts) {
+            return Ok(found);
+        }
+        // Meanwhile others find what is kept.
+        let responses = act::model(surface, Some(top), contacts)?;
+        let mut kept = self.kept();
+        // The first one was needed longest ago.
+        if kept.models.len() == KEPT {
+            kept.models.remove(0);
+        }
+        let (surface, contacts) = (surface.clone(), contacts.to_vec());
+        kept.models.push(Model { surface, top, contacts, responses: responses.clone() });
+        Ok(responses)
+    }
+
+    /// The default window of a surface with some responses, as [`act::chosen_window`] gives it.
+    pub fn window(&self, surface: &Surface, responses: &Responses) -> Recommended {
+        let kept = self.kept().windows.clone().filter(|(known, _)| known == surface);
+        let (_, windows) = kept.unwrap_or_else(|| {
+            let solved = (surface.clone(), Windows::of(surface));
+            self.kept().windows = Some(solved.clone());
+            solved
+        });
+        act::chosen_among(&windows, responses)
+    }
+
+    fn find(&self, surface: &Surface, top: f64, contacts: &[Contact]) -> Option<Responses> {
+        let mut kept = self.kept();
+        let is_wanted =
+            |model: &Model| model.top == top && model.contacts == contacts && model.surface == *surface;
+        let at = kept.models.iter().position(is_wanted)?;
+        let model = kept.models.remove(at);
+        let responses = model.responses.clone();
+        kept.models.push(model);
+        Some(responses)
+    }
+
+    fn kept(&self) -> MutexGuard<'_, Kept> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
