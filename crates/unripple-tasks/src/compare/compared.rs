@@ -8,7 +8,7 @@ use super::row::{self, Row};
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
-use crate::{Progress, TaskError, go_on, judge};
+use crate::{Progress, Solved, TaskError, go_on, judge};
 use serde::Serialize;
 use unripple::act::{Readouts, chosen_window};
 use unripple::core::{Responses, Surface};
@@ -30,6 +30,9 @@ pub struct Compared {
     pub modes: usize,
     /// Highest frequency of the modes that drives were evaluated on, in Hz.
     pub judged_to_hz: f64,
+    /// Reason why these modes end at the top of the band, where those up to the default frequency are out of reach.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub judged_to_why: Option<String>,
     /// Results of every method that did not fail, time reversal first.
     pub methods: Vec<Row>,
     /// Methods that failed, each with the reason.
@@ -52,10 +55,10 @@ pub(super) fn on(
     label: String,
     progress: &mut dyn Progress,
 ) -> Result<Compared, TaskError> {
-    let known = judge::model(surface, None, &[])?;
+    let solved = Solved::default();
+    let known = solved.model(surface, None, &[])?;
     let targets = targets(&ask.points, &ask.shapes, known.conditions().lambda_min)?;
-    let judged_to = ask.judge_hz.unwrap_or_else(|| judge::judged_hz(surface, judge::JUDGED_BANDS));
-    let plant = judge::model(surface, Some(judged_to), &[])?;
+    let (judge::Models { free: plant, .. }, judging) = judge::models(surface, ask.judge_hz, &[], &solved)?;
     let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
     let chosen = asked.is_none().then(|| chosen_window(surface, &known));
     let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
@@ -82,7 +85,8 @@ pub(super) fn on(
         window_s: window,
         window_why: chosen.as_ref().map(|chosen| chosen.why.clone()),
         modes: modes(&known),
-        judged_to_hz: judged_to,
+        judged_to_hz: judging.hz,
+        judged_to_why: judging.note.map(|note| note.text),
         methods,
         failed,
         fronts,

@@ -105,6 +105,7 @@ impl crate::Report for Report {
         for on in self.surfaces() {
             let of = if self.has_several() { format!("{}: ", on.label) } else { String::new() };
             text.extend(on.window_text.iter().map(|window| format!("\n{of}window {window}\n")));
+            text.extend(on.judged_to_why.iter().map(|why| format!("\n{of}{why}\n")));
         }
         text
     }
