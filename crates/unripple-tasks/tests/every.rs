@@ -1,6 +1,9 @@
 //! What is true of every task: its ask goes through JSON and back, an unknown key is refused, and one that is cancelled before it begins
 //! does nothing.
 
+#[path = "every/given.rs"]
+mod given;
+
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fmt::Debug;

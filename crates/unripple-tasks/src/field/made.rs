@@ -1,6 +1,7 @@
 //! All data from which a report on a field is made.
 
 use super::Report;
+use crate::figures::When;
 use unripple::act::Judged;
 use unripple::core::{Drive, Responses, Surface};
 use unripple::field::Aim;
@@ -22,4 +23,6 @@ pub struct Made {
     pub responses: Responses,
     /// Whether absolute lengths and velocities are known: not for a library without a scale.
     pub scaled: bool,
+    /// What the instants are, for figures.
+    pub when: When,
 }

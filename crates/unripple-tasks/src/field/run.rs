@@ -1,10 +1,10 @@
 //! The field of a drive, measured.
 
 use super::{Ask, DriveAsk, Made, Report, write};
-use crate::figures::{self, Columns, MOST_FRAMES};
+use crate::figures::{self, Columns, MOST_FRAMES, When};
 use crate::judge::{self, CELLS, Models};
 use crate::numbers::above_zero;
-use crate::{Progress, TaskError, fingers, folder, go_on, point, source};
+use crate::{Progress, Source, TaskError, fingers, folder, go_on, point, source};
 use unripple::act;
 use unripple::core::{Drive, Point, Surface};
 use unripple::field::{Aim, Field};
@@ -17,7 +17,8 @@ use unripple_store::read_wav;
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     Columns::of(ask.columns)?;
     let out = folder::begin(ask.output.as_deref(), ask)?;
-    let (mut made, movie) = measured(ask, !ask.no_figures && out.is_some(), progress)?;
+    let (source, drive) = open(ask, progress)?;
+    let (mut made, movie) = measured(ask, source, drive, !ask.no_figures && out.is_some(), progress)?;
     if let Some(out) = out {
         write::write(ask, out, &mut made, movie, progress)?;
     }
@@ -29,19 +30,48 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 /// # Errors
 /// Those of [`run()`], but for those of writing.
 pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
-    Ok(measured(ask, false, progress)?.0)
+    let (source, drive) = open(ask, progress)?;
+    Ok(measured(ask, source, drive, false, progress)?.0)
+}
+
+/// Measures what a drive does to a surface as [`make()`] does, for a surface or responses and a drive that are given instead of those that
+/// the ask names.
+///
+/// # Errors
+/// Those of [`make()`], but for those of reading them.
+pub fn make_on(
+    ask: &Ask,
+    source: Source,
+    drive: Drive,
+    progress: &mut dyn Progress,
+) -> Result<Made, TaskError> {
+    check(ask)?;
+    allow(ask, &source)?;
+    Ok(measured(ask, source, drive, false, progress)?.0)
+}
+
+/// The surface or responses and the drive that an ask names.
+fn open(ask: &Ask, progress: &mut dyn Progress) -> Result<(Source, Drive), TaskError> {
+    check(ask)?;
+    let source = source::open(&ask.surface, progress)?;
+    allow(ask, &source)?;
+    let drive = drive(&ask.drive, &source.surface)?;
+    Ok((source, drive))
+}
+
+/// Refuses fields that need a model where there is none.
+fn allow(ask: &Ask, source: &Source) -> Result<(), TaskError> {
+    source.allows(&[("fingers_m", !ask.fingers_m.is_empty()), ("judge_hz", ask.judge_hz.is_some())])
 }
 
 /// All data, and the animation if it is wanted: both from one field.
 fn measured(
     ask: &Ask,
+    source: Source,
+    drive: Drive,
     animated: bool,
     progress: &mut dyn Progress,
 ) -> Result<(Made, Option<Vec<u8>>), TaskError> {
-    check(ask)?;
-    let source = source::open(&ask.surface, progress)?;
-    source.allows(&[("fingers_m", !ask.fingers_m.is_empty()), ("judge_hz", ask.judge_hz.is_some())])?;
-    let drive = drive(&ask.drive, &source.surface)?;
     let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", &source.surface)?;
     let places: Vec<Point> = ask.points_m.iter().map(point).collect();
     let unscaled = source.without_scale().is_some();
@@ -87,7 +117,8 @@ fn measured(
         report = report.without_scale();
     }
     let responses = models.under.unwrap_or(models.free);
-    Ok((Made { report, drive, judged, aims, surface, responses, scaled: !unscaled }, movie))
+    let when = if ask.instants_s.is_empty() { When::Fastest } else { When::Asked };
+    Ok((Made { report, drive, judged, aims, surface, responses, scaled: !unscaled, when }, movie))
 }
 
 /// Refuses an animation that makes no sense, before there is work to lose.

@@ -1,7 +1,7 @@
 //! The folder of a field: report, figures and animation.
 
 use super::{Ask, Made};
-use crate::figures::{self, Columns, Scene, When};
+use crate::figures::{self, Columns, Scene};
 use crate::{Progress, Record, TaskError, folder, go_on};
 use unripple::act::Judged;
 use unripple::core::{Point, Surface};
@@ -22,10 +22,8 @@ pub(super) fn write(
 ) -> Result<(), TaskError> {
     go_on(progress)?;
     progress.stage("figures");
-    // They are drawn in m/s and µm, which nobody knows without a scale.
-    let drawn = made.scaled && !ask.no_figures;
-    let figures = if drawn { Columns::of(ask.columns)?.fit(figures(ask, made)) } else { Vec::new() };
-    made.report.files = figures::write(&out, &figures)?;
+    let pictures = if ask.no_figures { Vec::new() } else { Columns::of(ask.columns)?.fit(pictures(made)) };
+    made.report.files = figures::write(&out, &pictures)?;
     if let Some(movie) = movie {
         out.write("animation.png", &movie)?;
         made.report.files.push("animation.png".into());
@@ -35,10 +33,21 @@ pub(super) fn write(
     folder::finish(out, progress)
 }
 
-fn figures(ask: &Ask, made: &Made) -> Vec<(&'static str, Figure)> {
-    let (measured, rate) = (&made.judged.measured, made.drive.rate());
+/// The figures in the folder of a field, as SVG text by their names.
+///
+/// # Errors
+/// [`TaskError::Work`] of a figure that cannot be drawn.
+pub fn figures(made: &Made, columns: Columns) -> Result<Vec<(String, String)>, TaskError> {
+    figures::svgs(&columns.fit(pictures(made)))
+}
+
+fn pictures(made: &Made) -> Vec<(&'static str, Figure)> {
+    // They are drawn in m/s and µm, which nobody knows without a scale.
+    if !made.scaled {
+        return Vec::new();
+    }
+    let (measured, rate, when) = (&made.judged.measured, made.drive.rate(), made.when);
     let scene = scene(&made.surface, &made.aims, &made.judged);
-    let when = if ask.instants_s.is_empty() { When::Fastest } else { When::Asked };
     let mut figures = vec![("traces", figures::traces(&measured.targets, &made.judged.traces, rate, when))];
     figures.extend(figures::snapshots(&scene, measured, when).map(|figure| ("snapshot", figure)));
     figures.push(("peaks", figures::peaks(&scene, measured)));

@@ -18,6 +18,14 @@ use crate::TaskError;
 use unripple_plot::{Figure, PRINT_DPI, pngs};
 use unripple_store::OutputDir;
 
+/// Each figure as SVG text, by its name.
+///
+/// # Errors
+/// [`TaskError::Work`] of a figure that cannot be drawn.
+pub fn svgs(figures: &[(&str, Figure)]) -> Result<Vec<(String, String)>, TaskError> {
+    figures.iter().map(|(name, figure)| Ok(((*name).to_owned(), figure.draw()?.svg().to_owned()))).collect()
+}
+
 /// Writes each figure as NAME.svg, NAME.pdf and NAME.png, and its data as NAME.csv or, of several panels, NAME-a.csv and so on; returns the
 /// file names.
 pub fn write(out: &OutputDir, figures: &[(&str, Figure)]) -> Result<Vec<String>, TaskError> {

@@ -5,7 +5,7 @@ use crate::figures::Columns;
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
-use crate::{Progress, TaskError, fingers, folder, go_on, judge, source};
+use crate::{Progress, Source, TaskError, fingers, folder, go_on, judge, source};
 use unripple::act::{self, Act, Aware, Note};
 use unripple::core::{Decay, Surface};
 use unripple::focus::{LossCorrection, Method, Options};
@@ -42,7 +42,14 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 /// # Errors
 /// Those of [`run()`], but for those of writing.
 pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
-    let source = source::open(&ask.surface, progress)?;
+    make_on(ask, source::open(&ask.surface, progress)?, progress)
+}
+
+/// Computes and evaluates a drive as [`make()`] does, for a surface or responses that are given instead of those that the ask names.
+///
+/// # Errors
+/// Those of [`make()`], but for those of reading them.
+pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     source.allows(&needing_modes(ask))?;
     let plant = ask.on.as_ref().map(|on| on.load()).transpose()?;
     go_on(progress)?;

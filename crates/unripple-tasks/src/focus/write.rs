@@ -18,14 +18,22 @@ pub(super) fn write(
     write_wav(out.path().join("drive.wav"), &made.drive)?;
     made.report.files = vec!["drive.wav".into()];
     if let Some(columns) = drawn {
-        made.report.files.extend(figures::write(out, &columns.fit(figures(made)))?);
+        made.report.files.extend(figures::write(out, &columns.fit(pictures(made)))?);
     }
     record.write(out, &made.report)?;
     out.write("report.md", made.report.markdown().as_bytes())?;
     Ok(())
 }
 
-fn figures(made: &Made) -> Vec<(&'static str, Figure)> {
+/// The figures in the folder of a focus, as SVG text by their names.
+///
+/// # Errors
+/// [`TaskError::Work`] of a figure that cannot be drawn.
+pub fn figures(made: &Made, columns: Columns) -> Result<Vec<(String, String)>, TaskError> {
+    figures::svgs(&columns.fit(pictures(made)))
+}
+
+fn pictures(made: &Made) -> Vec<(&'static str, Figure)> {
     let (measured, surface) = (&made.judged.measured, &made.surface);
     let scene = Scene::new(surface, &made.focused.points, measured.focal_radius_m);
     let unit = act::unit(&surface.actuators.first().map_or(ActuatorKind::Force, |a| a.kind));

@@ -1,13 +1,11 @@
 //! Evaluation of drives for waveforms and strokes, over their whole length.
 
-use super::write;
-use crate::figures::Columns;
-use crate::{Progress, Record, SurfaceAsk, TaskError, folder, go_on, judge, source};
+use super::Made;
+use crate::{Progress, Source, SurfaceAsk, TaskError, go_on, judge};
 use unripple::act::{DecidedBy, Followed, Report, Strength, Stroked};
 use unripple::core::{Drive, Responses, Surface};
 use unripple::field::{Aim, Field, SilenceFigures};
 use unripple::focus::Options;
-use unripple_store::OutputDir;
 
 /// Cells of the grid per shortest wavelength, where the whole of a long drive is measured. Fewer than the eight of a
 /// single focus: the time of a long drive counts, and rms figures change little.
@@ -36,16 +34,10 @@ pub(crate) struct Played {
 
 /// Options that the tasks `waveform` and `stroke` have in common.
 pub(crate) struct Common<'a> {
-    /// The surface that the drive is made for.
-    pub surface: &'a SurfaceAsk,
     /// Another surface that the drive is evaluated on.
     pub on: Option<&'a SurfaceAsk>,
     /// Highest frequency of the modes that the drive is evaluated on, in Hz.
     pub judge_hz: Option<f64>,
-    /// How wide figures are, where they are written.
-    pub drawn: Option<Columns>,
-    /// Where results go, and the record that goes with them.
-    pub out: Option<(OutputDir, Record)>,
     /// Name of the field that needs a surface, for the error if a library is given.
     pub needs: &'static str,
     /// Multiples of the band up to which modes are planned with, and evaluated on by default; at most 0.45 of the sample rate.
@@ -53,26 +45,30 @@ pub(crate) struct Common<'a> {
 }
 
 /// Computes a drive by `play`, which gets what `plan` made of the surface, the surface, and the responses for planning and
-/// for evaluation; evaluates the drive, and writes it where a folder is given. `plan` comes before all responses, so that it
-/// refuses what makes no sense at once.
+/// for evaluation, and evaluates the drive. `plan` comes before all responses, so that it refuses what makes no sense at once.
 pub(crate) fn judge<T>(
     common: Common<'_>,
+    source: Source,
     progress: &mut dyn Progress,
     plan: impl FnOnce(&Surface) -> Result<T, TaskError>,
     play: impl FnOnce(T, &Surface, [&Responses; 2]) -> Result<Played, TaskError>,
-) -> Result<(Report, Drive), TaskError> {
-    let source = source::open(common.surface, progress)?;
+) -> Result<Made, TaskError> {
     source.allows(&[(common.needs, true)])?;
-    let surface = source.surface;
-    let plant = common.on.map(|on| on.load()).transpose()?;
-    let plant = plant.as_ref().unwrap_or(&surface);
+    let Source { surface, computed, solved, .. } = source;
+    let other = common.on.map(|on| on.load()).transpose()?;
+    let plant = other.as_ref().unwrap_or(&surface);
     go_on(progress)?;
     let plan = plan(&surface)?;
     progress.stage("responses");
     let [planned, judged] = common.bands;
-    let model = judge::model(&surface, Some(judge::judged_hz(&surface, planned)), &[])?;
+    let planned_hz = judge::judged_hz(&surface, planned);
+    // Responses that are given stand for those of the band.
+    let model = match computed.filter(|_| planned_hz == surface.emission.band[1]) {
+        Some(computed) => computed,
+        None => solved.model(&surface, Some(planned_hz), &[])?,
+    };
     let judge_hz = common.judge_hz.unwrap_or_else(|| judge::judged_hz(plant, judged));
-    let judging = judge::model(plant, Some(judge_hz), &[])?;
+    let judging = solved.model(plant, Some(judge_hz), &[])?;
     go_on(progress)?;
     progress.stage("drive");
     let played = play(plan, &surface, [&model, &judging])?;
@@ -94,11 +90,6 @@ pub(crate) fn judge<T>(
     report.waveforms = played.waveforms;
     report.silent = played.silent;
     report.stroke = played.stroke;
-    if let Some((out, record)) = common.out {
-        let drawn = common.drawn.map(|columns| (plant, columns));
-        write::write(&out, &mut report, drawn, &played.drive, &judged)?;
-        record.write(&out, &report)?;
-        folder::finish(out, progress)?;
-    }
-    Ok((report, played.drive))
+    let surface = plant.clone();
+    Ok(Made { report, drive: played.drive, judged, surface })
 }

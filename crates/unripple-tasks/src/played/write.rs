@@ -1,32 +1,43 @@
 //! The folder of what is played: drive, report and figures.
 
-use crate::TaskError;
+use super::Made;
 use crate::figures::{self, Columns, Scene, When};
-use unripple::act::{Judged, Report, unit};
-use unripple::core::{ActuatorKind, Drive, Point, Surface};
+use crate::{Progress, Record, TaskError, folder};
+use unripple::act::{Report, unit};
+use unripple::core::{ActuatorKind, Point};
 use unripple_plot::Figure;
 use unripple_store::{OutputDir, write_wav};
 
-/// Writes all of it but the report as JSON, and names the files in the report; figures are of a surface and
-/// a width, where these are given.
-pub(super) fn write(
-    out: &OutputDir,
-    report: &mut Report,
-    drawn: Option<(&Surface, Columns)>,
-    drive: &Drive,
-    judged: &Judged,
-) -> Result<(), TaskError> {
-    write_wav(out.path().join("drive.wav"), drive)?;
-    report.files = vec!["drive.wav".into()];
-    if let Some((surface, columns)) = drawn {
-        let when = if report.stroke.is_some() { When::Stroke } else { When::Waveform };
-        report.files.extend(figures::write(out, &columns.fit(figures(surface, drive, judged, when)))?);
+/// Writes all of it where a folder is given, figures of some width where they are wanted, names the files in the report, and returns that.
+pub(crate) fn keep(
+    mut made: Made,
+    out: Option<(OutputDir, Record)>,
+    drawn: Option<Columns>,
+    progress: &mut dyn Progress,
+) -> Result<Report, TaskError> {
+    let Some((out, record)) = out else { return Ok(made.report) };
+    write_wav(out.path().join("drive.wav"), &made.drive)?;
+    made.report.files = vec!["drive.wav".into()];
+    if let Some(columns) = drawn {
+        made.report.files.extend(figures::write(&out, &columns.fit(pictures(&made)))?);
     }
-    out.write("report.md", report.markdown().as_bytes())?;
-    Ok(())
+    out.write("report.md", made.report.markdown().as_bytes())?;
+    record.write(&out, &made.report)?;
+    folder::finish(out, progress)?;
+    Ok(made.report)
 }
 
-fn figures(surface: &Surface, drive: &Drive, judged: &Judged, when: When) -> Vec<(&'static str, Figure)> {
+/// The figures in the folder of waveforms or a stroke, as SVG text by their names.
+///
+/// # Errors
+/// [`TaskError::Work`] of a figure that cannot be drawn.
+pub fn figures(made: &Made, columns: Columns) -> Result<Vec<(String, String)>, TaskError> {
+    figures::svgs(&columns.fit(pictures(made)))
+}
+
+fn pictures(made: &Made) -> Vec<(&'static str, Figure)> {
+    let Made { report, drive, judged, surface } = made;
+    let when = if report.stroke.is_some() { When::Stroke } else { When::Waveform };
     let measured = &judged.measured;
     let points: Vec<Vec<Point>> =
         measured.targets.iter().map(|t| vec![Point::new(t.at_m[0], t.at_m[1])]).collect();

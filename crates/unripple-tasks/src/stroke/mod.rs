@@ -4,6 +4,7 @@ mod ask;
 mod report;
 mod run;
 
+pub use crate::played::{Made, figures};
 pub use ask::Ask;
 pub use report::Report;
-pub use run::{make, run};
+pub use run::{make, make_on, run};

@@ -3,9 +3,9 @@
 use super::{Ask, Report};
 use crate::figures::Columns;
 use crate::numbers::above_zero;
-use crate::played::{Common, Played, judge};
+use crate::played::{Common, Made, Played, judge, keep};
 use crate::window::carries;
-use crate::{Progress, TaskError, folder};
+use crate::{Progress, Source, TaskError, folder, source};
 use unripple::act::Stroked;
 use unripple::core::{Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
@@ -26,32 +26,41 @@ const BETWEEN: usize = 2;
 /// # Errors
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; those of the method; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
-    Ok(make(ask, progress)?.0)
+    velocities(ask)?;
+    let drawn = (!ask.no_figures).then_some(Columns::of(ask.columns)?);
+    let out = folder::begin(ask.output.as_deref(), ask)?;
+    keep(make(ask, progress)?, out, drawn, progress)
 }
 
-/// Does what [`run()`] does, and also returns the drive: float32 samples in the actuators' unit, `[actuator][sample]`.
+/// Computes and evaluates a drive as [`run()`] does, without writing a folder, and returns all data.
 ///
 /// # Errors
-/// Those of [`run()`].
-pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<(Report, Drive), TaskError> {
-    let speed = above_zero(ask.speed_m_s, "speed_m_s", "m/s")?;
-    let level = above_zero(ask.level_m_s, "level_m_s", "m/s")?;
-    let common = Common {
-        surface: &ask.surface,
-        on: ask.on.as_ref(),
-        judge_hz: ask.judge_hz,
-        drawn: (!ask.no_figures).then_some(Columns::of(ask.columns)?),
-        out: folder::begin(ask.output.as_deref(), ask)?,
-        needs: "waveforms and path",
-        bands: BANDS,
-    };
+/// Those of [`run()`], but for those of writing.
+pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
+    velocities(ask)?;
+    make_on(ask, source::open(&ask.surface, progress)?, progress)
+}
+
+/// Computes and evaluates a drive as [`make()`] does, for a surface or responses that are given instead of those that the ask names.
+///
+/// # Errors
+/// Those of [`make()`], but for those of reading them.
+pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Made, TaskError> {
+    let [speed, level] = velocities(ask)?;
+    let common =
+        Common { on: ask.on.as_ref(), judge_hz: ask.judge_hz, needs: "waveforms and path", bands: BANDS };
     let plan = |surface: &Surface| -> Result<Stroke, TaskError> {
         let path = Pattern { filled: false, ..ask.path.pattern("path")? };
         let stroke = Stroke { level, ..Stroke::along(path, speed) };
         stroke.check(surface.emission.rate).map_err(refused)?;
         Ok(stroke)
     };
-    judge(common, progress, plan, |stroke, surface, models| stroked(ask, surface, &stroke, models))
+    judge(common, source, progress, plan, |stroke, surface, models| stroked(ask, surface, &stroke, models))
+}
+
+/// How fast the focus moves, and the velocity of the sheet that is asked for there, in m/s.
+fn velocities(ask: &Ask) -> Result<[f64; 2], TaskError> {
+    Ok([above_zero(ask.speed_m_s, "speed_m_s", "m/s")?, above_zero(ask.level_m_s, "level_m_s", "m/s")?])
 }
 
 /// The error about a stroke; if it is about its speed, with the field that gives it.

@@ -5,6 +5,7 @@ mod report;
 mod run;
 mod sound;
 
+pub use crate::played::{Made, figures};
 pub use ask::{Ask, SoundAsk, WaveformAsk};
 pub use report::Report;
-pub use run::{make, run};
+pub use run::{make, make_on, run};

@@ -3,10 +3,10 @@
 use super::{Ask, Report, sound};
 use crate::figures::Columns;
 use crate::numbers::above_zero;
-use crate::played::{Common, Played, judge};
-use crate::{Progress, TaskError, folder, point};
+use crate::played::{Common, Made, Played, judge, keep};
+use crate::{Progress, Source, TaskError, folder, point, source};
 use unripple::act::Followed;
-use unripple::core::{Drive, Responses, Surface};
+use unripple::core::{Responses, Surface};
 use unripple::field::{Aim, Field, Wanted};
 use unripple::focus::{PlayOptions, Waveform, play};
 
@@ -21,30 +21,42 @@ const BANDS: [f64; 2] = [2.0, 3.0];
 /// [`TaskError::Ask`] without a waveform, and of numbers that make no sense; those of reading and writing files; those of the method;
 /// [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
-    Ok(make(ask, progress)?.0)
+    check(ask)?;
+    let drawn = (!ask.no_figures).then_some(Columns::of(ask.columns)?);
+    let out = folder::begin(ask.output.as_deref(), ask)?;
+    keep(make(ask, progress)?, out, drawn, progress)
 }
 
-/// Does what [`run()`] does, and also returns the drive: float32 samples in the actuators' unit, `[actuator][sample]`.
+/// Computes and evaluates a drive as [`run()`] does, without writing a folder, and returns all data.
 ///
 /// # Errors
-/// Those of [`run()`].
-pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<(Report, Drive), TaskError> {
-    if ask.waveforms.is_empty() {
-        return Err(TaskError::ask("waveforms", "a waveform at a place", "none"));
-    }
-    let common = Common {
-        surface: &ask.surface,
-        on: ask.on.as_ref(),
-        judge_hz: ask.judge_hz,
-        drawn: (!ask.no_figures).then_some(Columns::of(ask.columns)?),
-        out: folder::begin(ask.output.as_deref(), ask)?,
-        needs: "waveforms and path",
-        bands: BANDS,
-    };
+/// Those of [`run()`], but for those of writing.
+pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
+    check(ask)?;
+    make_on(ask, source::open(&ask.surface, progress)?, progress)
+}
+
+/// Computes and evaluates a drive as [`make()`] does, for a surface that is given instead of the one that the ask names. Waveforms are
+/// planned on modes above the band: not on responses of the band that are given, but on what has been solved.
+///
+/// # Errors
+/// Those of [`make()`], but for those of reading the surface.
+pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Made, TaskError> {
+    check(ask)?;
+    let common =
+        Common { on: ask.on.as_ref(), judge_hz: ask.judge_hz, needs: "waveforms and path", bands: BANDS };
     let plan = |surface: &Surface| -> Result<Vec<Waveform>, TaskError> {
         ask.waveforms.iter().map(|waveform| sound::waveform(waveform, surface.emission.rate)).collect()
     };
-    judge(common, progress, plan, |waves, surface, models| followed(ask, &waves, surface, models))
+    judge(common, source, progress, plan, |waves, surface, models| followed(ask, &waves, surface, models))
+}
+
+/// Refuses to play nothing.
+fn check(ask: &Ask) -> Result<(), TaskError> {
+    match ask.waveforms.is_empty() {
+        true => Err(TaskError::ask("waveforms", "a waveform at a place", "none")),
+        false => Ok(()),
+    }
 }
 
 fn followed(
