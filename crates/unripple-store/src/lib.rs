@@ -59,6 +59,7 @@ pub use kept::{check_kept_wav, write_kept_wav};
 pub use library::{BandQuality, Damage, Doubt, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
 pub use listing::MARKER;
 pub use load::{load_surface, load_surface_with, surface_files};
+pub use names::nearest;
 pub use output::{Committed, OutputDir};
 pub use set::set_keys;
 pub use sofa::{SofaAbout, date};

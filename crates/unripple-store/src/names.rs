@@ -4,7 +4,7 @@
 const LONGEST: usize = 64;
 
 /// The known name nearest to `found`, letter case aside, if any is near enough to have been meant.
-pub(crate) fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+pub fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let found = found.trim().to_lowercase();
     if found.chars().count() > LONGEST {
         return None;

@@ -11,7 +11,7 @@
 //! [`modes`] is the shortest task, [`focus`] the one that most others resemble. [`SurfaceAsk`] is a surface by its
 //! name, its file or its text, and [`source`] opens it, or a library of responses. [`Progress`] connects a running task
 //! with its caller, [`Report`] is what all reports have in common, a [`Record`] says how a report was made, and
-//! [`folder`] puts results in their place. [`TaskError`] is the error of all tasks.
+//! [`folder`] puts results in their place. [`commands`] has all tasks by their names. [`TaskError`] is the error of all tasks.
 //!
 //! ```
 //! use unripple_tasks::{Report, Silent, modes};
@@ -27,6 +27,7 @@ mod apart;
 pub mod between;
 pub mod calibrate;
 pub mod check;
+pub mod commands;
 pub mod compare;
 pub mod design;
 pub mod device;

@@ -1,6 +1,8 @@
 //! What is true of every task: its ask goes through JSON and back, an unknown key is refused, and one that is cancelled before it begins
 //! does nothing.
 
+#[path = "every/by_name.rs"]
+mod by_name;
 #[path = "every/given.rs"]
 mod given;
 

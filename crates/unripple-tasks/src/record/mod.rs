@@ -217,9 +217,17 @@ impl Record {
                 )));
             }
         }
-        serde_json::from_value(self.ask.clone())
-            .map_err(|error| TaskError::Input(format!("the ask of `{}`: {error}", self.command)))
+        asked(self.ask.clone())
     }
+}
+
+/// The ask that a JSON value holds; fields that it leaves out have their defaults.
+///
+/// # Errors
+/// [`TaskError::Input`] of a field that the command does not know, or of a value that the field cannot have.
+pub fn asked<A: Request>(ask: Value) -> Result<A, TaskError> {
+    serde_json::from_value(ask)
+        .map_err(|error| TaskError::Input(format!("the ask of `{}`: {error}", A::COMMAND)))
 }
 
 /// Date and time of day now, UTC, as ISO 8601 writes them: `2026-03-14T09:26:53Z`.

@@ -1,5 +1,7 @@
 //! Options of the task `rerun`.
 
+use crate::TaskError;
+use crate::record::{Request, Visit};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -11,4 +13,16 @@ pub struct Ask {
     pub report: PathBuf,
     /// Where results go; without it figures in numbers alone are made, where the command can do so.
     pub output: Option<PathBuf>,
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "rerun";
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        visit(&mut self.report)
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output;
+    }
 }

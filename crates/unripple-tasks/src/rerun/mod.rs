@@ -6,4 +6,4 @@ mod run;
 
 pub use ask::Ask;
 pub use report::Report;
-pub use run::{again, record, repeat, run};
+pub use run::{record, repeat, run};

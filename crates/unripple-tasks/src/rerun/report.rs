@@ -1,6 +1,7 @@
 //! What came of a run that was repeated: the report of its command.
 
 use crate::TaskError;
+use crate::commands::Done;
 use serde::Serialize;
 use serde_json::value::RawValue;
 
@@ -19,13 +20,13 @@ pub struct Report {
 }
 
 impl Report {
-    /// The report of a command, of whose JSON the record is a part.
+    /// What came of a command, with the record of its new run.
     ///
     /// # Errors
     /// [`TaskError::Work`] of text that is no JSON.
-    pub fn of(report: &impl crate::Report, json: String) -> Result<Self, TaskError> {
-        let json = RawValue::from_string(json).map_err(TaskError::work)?;
-        Ok(Self { json, text: report.text(), failure: report.failure() })
+    pub fn of(done: Done) -> Result<Self, TaskError> {
+        let Done { json, text, failure } = done;
+        Ok(Self { json: RawValue::from_string(json).map_err(TaskError::work)?, text, failure })
     }
 }
 

@@ -1,0 +1,62 @@
+//! A command by its name.
+
+use super::done::{Done, default_of};
+use super::list::{TASKS, find};
+use crate::record::{Request, asked};
+use crate::{Progress, TaskError, rerun};
+use serde_json::Value;
+
+/// Names of the commands that can be done by name: all tasks, and `rerun`.
+pub const COMMANDS: [&str; TASKS.len() + 1] = {
+    let mut names = [rerun::Ask::COMMAND; TASKS.len() + 1];
+    let mut at = 0;
+    while at < TASKS.len() {
+        names[at] = TASKS[at].name;
+        at += 1;
+    }
+    names
+};
+
+/// The ask of a command where nothing is asked for, with all its fields, as JSON.
+///
+/// # Errors
+/// [`unknown`].
+pub fn default_ask(command: &str) -> Result<Value, TaskError> {
+    match find(command) {
+        Some(task) => (task.default_ask)(),
+        None if command == rerun::Ask::COMMAND => default_of::<rerun::Ask>(),
+        None => Err(unknown(command, &COMMANDS)),
+    }
+}
+
+/// Does a command; fields that its ask leaves out have their defaults.
+///
+/// ```
+/// use unripple_tasks::{Silent, commands};
+///
+/// let mut ask = commands::default_ask("modes")?;
+/// ask["top_hz"] = 300.0.into();
+/// let done = commands::run("modes", ask, &mut Silent)?;
+/// assert!(done.text.contains("modes up to 300 Hz") && done.json.contains("\"command\": \"modes\""));
+/// # Ok::<(), unripple_tasks::TaskError>(())
+/// ```
+///
+/// # Errors
+/// [`unknown`]; [`TaskError::Input`] of an ask with a field that the command does not know, or a value that the field cannot have; those of
+/// the command.
+pub fn run(command: &str, ask: Value, progress: &mut dyn Progress) -> Result<Done, TaskError> {
+    match find(command) {
+        Some(task) => (task.run)(ask, progress),
+        None if command == rerun::Ask::COMMAND => {
+            Done::of(&rerun::run(&asked::<rerun::Ask>(ask)?, progress)?, None)
+        }
+        None => Err(unknown(command, &COMMANDS)),
+    }
+}
+
+/// The error of a command that is none of the `known` ones, with the nearest of them.
+pub fn unknown(command: &str, known: &[&str]) -> TaskError {
+    let nearest = unripple_store::nearest(command, known.iter().copied());
+    let nearest = nearest.map_or_else(String::new, |name| format!(" (nearest: {name})"));
+    TaskError::ask("command", format!("one of {}{nearest}", known.join(", ")), format!("`{command}`"))
+}

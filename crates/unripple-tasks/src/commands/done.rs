@@ -1,0 +1,70 @@
+//! A task from its ask as JSON to its report as JSON.
+
+use crate::record::{Record, Request, asked};
+use crate::{Progress, Report, TaskError, folder};
+use serde_json::Value;
+use std::path::PathBuf;
+
+/// What came of a task: its report, for programs and for people.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Done {
+    /// The report with the record of its run, as indented JSON.
+    pub json: String,
+    /// The report for people, as lines of text.
+    pub text: String,
+    /// Reason for which the task counts as failed although it has a report; `None` if it succeeded.
+    pub failure: Option<String>,
+}
+
+impl Done {
+    /// What a report says; its JSON holds the record where one is given.
+    ///
+    /// # Errors
+    /// [`TaskError::Work`] of what JSON cannot hold.
+    pub fn of(report: &impl Report, record: Option<&Record>) -> Result<Self, TaskError> {
+        let json = match record {
+            Some(record) => record.json(report)?,
+            None => folder::json(report)?,
+        };
+        Ok(Self { json, text: report.text(), failure: report.failure() })
+    }
+}
+
+/// The ask of a task where nothing is asked for, with all its fields, as JSON.
+///
+/// # Errors
+/// [`TaskError::Work`] of what JSON cannot hold.
+pub fn default_of<A: Request + Default>() -> Result<Value, TaskError> {
+    serde_json::to_value(A::default()).map_err(TaskError::work)
+}
+
+/// Does a task whose ask is JSON.
+///
+/// # Errors
+/// Those of [`asked`], of [`Record::of`] and of the task.
+pub fn perform<A: Request, R: Report>(
+    ask: Value,
+    run: fn(&A, &mut dyn Progress) -> Result<R, TaskError>,
+    progress: &mut dyn Progress,
+) -> Result<Done, TaskError> {
+    let ask: A = asked(ask)?;
+    // Before the work, as the command line makes it: files may change meanwhile.
+    let record = Record::of(&ask)?;
+    Done::of(&run(&ask, progress)?, Some(&record))
+}
+
+/// Does what a record holds once more with its results sent elsewhere.
+///
+/// # Errors
+/// Those of [`Record::ask`] and of the task.
+pub fn again<A: Request, R: Report>(
+    record: &Record,
+    output: Option<PathBuf>,
+    run: fn(&A, &mut dyn Progress) -> Result<R, TaskError>,
+    progress: &mut dyn Progress,
+) -> Result<Done, TaskError> {
+    let mut ask: A = record.ask()?;
+    ask.send_to(output);
+    let new = Record { surfaces: record.surfaces.clone(), ..Record::of(&ask)? };
+    Done::of(&run(&ask, progress)?, Some(&new))
+}

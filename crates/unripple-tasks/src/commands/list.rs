@@ -1,0 +1,46 @@
+//! The list of all tasks.
+
+use super::done::{Done, again, default_of, perform};
+use crate::record::{Record, Request};
+use crate::{Progress, TaskError};
+use crate::{
+    calibrate, check, compare, design, devices, doctor, drift, export, field, fit, focus, materials, modes,
+    play, respond, stroke, waveform,
+};
+use serde_json::Value;
+use std::path::PathBuf;
+
+/// A task as a command.
+pub(crate) struct Command {
+    /// Its name, in lower case.
+    pub(crate) name: &'static str,
+    /// Its ask where nothing is asked for.
+    pub(crate) default_ask: fn() -> Result<Value, TaskError>,
+    /// Does it, from its ask as JSON.
+    pub(crate) run: fn(Value, &mut dyn Progress) -> Result<Done, TaskError>,
+    /// Does what a record of it holds once more, with results sent elsewhere.
+    pub(crate) again: fn(&Record, Option<PathBuf>, &mut dyn Progress) -> Result<Done, TaskError>,
+}
+
+/// Makes a command of the module of each task.
+macro_rules! commands {
+    ($($task:ident),*) => {
+        [$(Command {
+            name: $task::Ask::COMMAND,
+            default_ask: default_of::<$task::Ask>,
+            run: |ask, progress| perform(ask, $task::run, progress),
+            again: |record, output, progress| again(record, output, $task::run, progress),
+        }),*]
+    };
+}
+
+/// The tasks in the order in which a surface comes to be: designed, simulated, driven, measured, played.
+pub(super) const TASKS: &[Command] = &commands![
+    check, design, modes, materials, focus, waveform, stroke, field, compare, respond, calibrate, fit,
+    export, drift, doctor, devices, play
+];
+
+/// The task of some name, if there is one.
+pub(crate) fn find(name: &str) -> Option<&'static Command> {
+    TASKS.iter().find(|task| task.name == name)
+}
