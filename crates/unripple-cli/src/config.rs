@@ -11,33 +11,34 @@ use toml::{Table, Value};
 /// The variable that names another file than the usual one; empty for none.
 const VARIABLE: &str = "UNRIPPLE_CONFIG";
 
-/// The arguments of the command line, completed by the configuration file; with what was added, in words. A request for help, and usage
-/// that is wrong by itself, end the program here.
+/// The arguments `given` on the command line, completed by the configuration file; with what was added, in words.
 ///
 /// # Errors
-/// [`CliError::Input`] of a file that cannot be read, or of what it says.
-pub fn arguments() -> Result<(Arguments, Option<String>), CliError> {
-    let given: Vec<OsString> = std::env::args_os().collect();
-    let alone = Arguments::try_parse_from(&given);
-    // Help is to be had whatever the file says.
-    let alone = alone.map_err(|error| if asks_for_help(&error) { error.exit() } else { error });
+/// [`CliError::Usage`] of a request for help, and of usage that is wrong by itself; [`CliError::Input`] of a file that cannot be read, or of
+/// what it says.
+pub fn arguments(given: &[OsString]) -> Result<(Arguments, Option<String>), CliError> {
+    let alone = match Arguments::try_parse_from(given) {
+        // Help is to be had whatever the file says.
+        Err(error) if asks_for_help(&error) => return Err(error.into()),
+        alone => alone,
+    };
     let Some(path) = place()? else {
-        return Ok((alone.unwrap_or_else(|error| error.exit()), None));
+        return Ok((alone?, None));
     };
     let shown = path.display().to_string();
     let refused = |what: String| CliError::Input(format!("{shown}: {what}"));
     let text = std::fs::read_to_string(&path).map_err(|error| refused(error.to_string()))?;
     let table: Table = text.parse().map_err(|error: toml::de::Error| refused(error.to_string()))?;
-    let added = added(&given, &table).map_err(refused)?;
+    let added = added(given, &table).map_err(refused)?;
     let told = |added: &Added| {
         Some(format!("{shown}: {}", added.options.join(" "))).filter(|_| !added.options.is_empty())
     };
-    match Arguments::try_parse_from(added.beside(&given)) {
+    match Arguments::try_parse_from(added.beside(given)) {
         Ok(arguments) => Ok((arguments, told(&added))),
         Err(error) if added.is_at_fault(&error) => Err(refused(first_line(&error))),
         Err(error) => {
-            let alone = alone.unwrap_or_else(|_| error.exit());
-            let usable = added.usable(&given, alone).map_err(|error| refused(first_line(&error)))?;
+            let Ok(alone) = alone else { return Err(error.into()) };
+            let usable = added.usable(given, alone).map_err(|error| refused(first_line(&error)))?;
             Ok((usable.0, told(&usable.1)))
         }
     }

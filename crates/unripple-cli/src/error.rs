@@ -2,7 +2,6 @@
 
 use crate::options;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
-use std::process::ExitCode;
 use unripple::act::{ActError, LevelKind};
 use unripple_tasks::TaskError;
 
@@ -17,6 +16,14 @@ pub enum CliError {
     Work(String),
     /// The task was cancelled before there was a result: the program ends as the signal that cancelled it would have ended it.
     Cancelled,
+    /// The command line is a request for help (exit status 0), or cannot be understood (2).
+    Usage(clap::Error),
+}
+
+impl From<clap::Error> for CliError {
+    fn from(error: clap::Error) -> Self {
+        Self::Usage(error)
+    }
 }
 
 impl From<ActError> for CliError {
@@ -56,6 +63,7 @@ impl std::fmt::Display for CliError {
             Self::Input(text) | Self::Work(text) => f.write_str(text),
             Self::Faults(faults) => write!(f, "{faults:#}"),
             Self::Cancelled => f.write_str("stopped before it was done"),
+            Self::Usage(error) => write!(f, "{error}"),
         }
     }
 }
@@ -71,13 +79,19 @@ impl CliError {
         Self::Work(error.to_string())
     }
 
-    /// Prints the error on standard error and returns the exit status.
-    pub fn report(&self) -> ExitCode {
+    /// Prints the error on standard error, or the help that was asked for on standard output, and returns the exit status.
+    pub fn report(&self) -> u8 {
         match self {
             Self::Input(_) | Self::Work(_) | Self::Cancelled => eprintln!("error: {self}"),
             Self::Faults(faults) => eprintln!("{}", rendered(faults.as_ref()).trim_end_matches('\n')),
+            // A reader that has gone away is no failure.
+            Self::Usage(error) => _ = error.print(),
         }
-        ExitCode::from(if matches!(self, Self::Work(_) | Self::Cancelled) { 1 } else { 2 })
+        match self {
+            Self::Usage(error) if !error.use_stderr() => 0,
+            Self::Work(_) | Self::Cancelled => 1,
+            Self::Input(_) | Self::Faults(_) | Self::Usage(_) => 2,
+        }
     }
 }
 

@@ -1,0 +1,127 @@
+//! The command line of Unripple, as a function: for the program `unripple`, and for whoever brings the program along, as a package of another
+//! language does.
+
+/// As that of the standard library, but a reader of standard error that has gone away, as in `2>&1 | head`, is no reason to panic.
+macro_rules! eprintln {
+    ($($text:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($text)*);
+    }};
+}
+
+mod args;
+mod calibrate;
+mod check;
+mod common;
+mod compare;
+mod config;
+mod design;
+mod devices;
+mod doctor;
+mod drift;
+mod error;
+mod export;
+mod field;
+mod fit;
+mod focus;
+mod interrupt;
+mod lines;
+mod materials;
+mod modes;
+mod options;
+mod output;
+mod play;
+mod progress;
+mod reproduce;
+mod rerun;
+mod respond;
+mod shell;
+mod targets;
+mod view;
+mod waveforms;
+
+use args::{Arguments, Command};
+use common::Common;
+use error::CliError;
+use lines::Talk;
+use std::ffi::OsString;
+
+/// The commit that the program was built from; empty where that is not known.
+pub const COMMIT: &str = env!("UNRIPPLE_COMMIT");
+
+/// Does what a command line asks for, prints what comes of it, and returns the exit code: 0, 1 or 2. The first argument is the program's own
+/// name, as in [`std::env::args_os`]. To be called once in a process: it handles the signals that end the program, which end the process.
+///
+/// ```
+/// use std::ffi::OsString;
+///
+/// assert_eq!(unripple_cli::command_line(["unripple", "--version"].map(OsString::from)), 0);
+/// ```
+pub fn command_line(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let given: Vec<OsString> = arguments.into_iter().collect();
+    let code = match answer(&given) {
+        Ok(()) => 0,
+        Err(error) => {
+            if matches!(error, CliError::Cancelled) {
+                interrupt::end_as_wished();
+            }
+            error.report()
+        }
+    };
+    // Programs in Rust do so when they end, others do not. A reader that has gone away is no failure.
+    let _ = std::io::Write::flush(&mut std::io::stdout());
+    code
+}
+
+fn answer(given: &[OsString]) -> Result<(), CliError> {
+    unripple_tasks::record::built_from(COMMIT);
+    let (arguments, added) = config::arguments(given)?;
+    lines::settle(match (arguments.verbose, arguments.quiet) {
+        (true, _) => Talk::Verbose,
+        (_, true) => Talk::Quiet,
+        _ => Talk::Usual,
+    });
+    if let Some(added) = added.filter(|_| arguments.verbose) {
+        eprintln!("{added}");
+    }
+    interrupt::watch()?;
+    run(&arguments)
+}
+
+fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let common = &Common::of(arguments)?;
+    match &arguments.command {
+        Command::Calibrate(options) => calibrate::run(options, common),
+        Command::Export(options) => export::run(options, common),
+        Command::Fit(options) => fit::run(options, common),
+        Command::Check(options) => check::run(options, common),
+        Command::Design(options) => design::run(options, common),
+        Command::Modes(options) => modes::run(options, common),
+        Command::Respond(options) => respond::run(options, common),
+        Command::Focus(options) => focus::run(options, common),
+        Command::Compare(options) => compare::run(options, common),
+        Command::Field(options) => field::run(options, common),
+        Command::Play(options) => play::run(options, common),
+        Command::View(options) => view::run(options, common),
+        Command::Materials(options) => materials::run(options, common),
+        Command::Devices(options) => devices::run(options, common),
+        Command::Doctor(options) => doctor::run(options, common),
+        Command::Drift(options) => drift::run(options, common),
+        Command::Reproduce(options) => reproduce::run(options, common),
+        Command::Rerun(options) => rerun::run(options, common),
+        Command::Completions(options) => shell::completions(options, common),
+        Command::Man(options) => shell::man(options, common),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_and_wrong_usage_return_their_codes() {
+        let code = |line: &str| command_line(line.split(' ').map(OsString::from));
+        assert_eq!(code("unripple --version"), 0);
+        assert_eq!(code("unripple focus --no-such-option"), 2);
+    }
+}
