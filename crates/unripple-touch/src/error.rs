@@ -1,8 +1,9 @@
-//! Why a source of touches cannot be opened.
+//! Errors of sources of touches.
 
 use unripple_core::OutOfRange;
 
-/// What goes wrong when a source of touches is opened. Once open, a source counts what it refuses: see [`Counts`](crate::Counts).
+/// What goes wrong when a source of touches is opened, or a touch is pushed. Once open, a source counts what it refuses: see
+/// [`Counts`](crate::Counts).
 #[derive(Debug, thiserror::Error)]
 pub enum TouchError {
     /// The operating system reports an error of a socket, a device or a file.
@@ -25,6 +26,16 @@ pub enum TouchError {
         line: usize,
         /// What was expected and what was found.
         what: String,
+    },
+    /// A touch that a program pushed is refused.
+    #[error("{what}: expected {expected}, found {found}")]
+    Pushed {
+        /// What is refused: `finger`, `at_m`, `force_n`, `time_s`, or the number of `fingers` or `touches`.
+        what: &'static str,
+        /// What is accepted.
+        expected: String,
+        /// What was found.
+        found: String,
     },
     /// A device file is not that of a multi-touch screen that can be read.
     #[error("{device}: expected a multi-touch screen, found none: {what}")]

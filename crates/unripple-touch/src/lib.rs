@@ -15,6 +15,7 @@
 //! | [`WebSocketPort`] | the JSON protocol of [`SCHEMA`] |
 //! | [`Screen`] | a multi-touch screen of Linux |
 //! | [`Playback`] | a [`Recording`], made with a [`Recorder`] |
+//! | [`Pushed`] | what a program pushes with a [`Pusher`] |
 //! | [`Synthetic`] | simulated fingers that tap and slide |
 //!
 //! Each source of external data has a decoder that works without a socket or a device ([`OscReceiver`], [`Message`],
@@ -53,6 +54,7 @@ mod mapping;
 mod motion;
 mod options;
 mod osc;
+mod pushed;
 mod recording;
 mod screen;
 mod source;
@@ -68,6 +70,7 @@ pub use mapping::Mapping;
 pub use motion::Motion;
 pub use options::Options;
 pub use osc::{OscPort, OscReceiver};
+pub use pushed::{Pushed, Pusher, pushed};
 pub use recording::{Playback, Recorder, Recording};
 pub use screen::{Axis, Contacts, Event, Report, Screen, Slots};
 pub use source::Source;

@@ -4,6 +4,7 @@ mod fingers;
 mod hostile;
 mod own;
 mod properties;
+mod pushed;
 mod recording;
 mod schema;
 mod screen;
