@@ -5,9 +5,11 @@ mod open;
 mod outputs;
 mod report;
 mod run;
+mod stepped;
 mod touches;
 
 pub use ask::{Ask, TouchAsk};
 pub use open::{Opener, late, opener};
 pub use report::Report;
 pub use run::{follower, run};
+pub use stepped::Stepped;

@@ -11,7 +11,7 @@ use unripple_live::{Engine, Level, Percentiles, Pulse, Stage, Window};
 use unripple_player::Count;
 
 /// Report of a session of play, SI units.
-#[derive(Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Report {
     surface: String,
     window_s: f64,
@@ -57,6 +57,9 @@ pub struct Report {
     /// Notes on what is wrong with the library that was played on.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<Note>,
+    /// What each finger felt at the last look.
+    #[serde(skip)]
+    pub(super) feelings: Vec<Feeling>,
     /// Whether what fingers feel is known.
     #[serde(skip)]
     tells_feelings: bool,
@@ -66,7 +69,7 @@ pub struct Report {
 }
 
 /// What a sound server reports of itself and of the session.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 struct ServerSays {
     /// A cycle, as it was at the end.
     period_s: f64,
@@ -107,7 +110,7 @@ impl ServerSays {
 }
 
 /// The 50th, 90th, 99th, 99.9th percentile and the worst; `null` where nothing was.
-#[derive(Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 struct Four {
     p50: Option<f64>,
     p90: Option<f64>,
@@ -139,7 +142,7 @@ impl Four {
 }
 
 /// Sensations of fingers, over all looks in which one felt anything.
-#[derive(Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 struct Felt {
     looks: usize,
     level_db_median: Option<f64>,
@@ -152,7 +155,7 @@ struct Felt {
 }
 
 /// Tension as it was followed.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 struct Tension {
     ratio: f64,
     explained: bool,
@@ -173,8 +176,8 @@ impl Report {
     /// Samples the fingers' sensations, the tension and the device's state, and returns a line on them; empty if there is nothing to say.
     pub fn look(&mut self, stage: &mut Stage, pulse: Option<&Pulse>) -> String {
         let mut line = format!("{:7.1} s", stage.time());
-        let feelings = stage.feelings();
-        for feeling in &feelings {
+        self.feelings = stage.feelings();
+        for feeling in &self.feelings {
             self.felt.add(feeling);
             line += &told(feeling, self.without_scale);
         }
@@ -197,7 +200,7 @@ impl Report {
                 let _ = write!(line, "  load {:.0} %: close to overload", 100.0 * load);
             }
         }
-        match feelings.is_empty() && pulse.is_none_or(|pulse| pulse.state == State::Running) {
+        match self.feelings.is_empty() && pulse.is_none_or(|pulse| pulse.state == State::Running) {
             true => String::new(),
             false => line,
         }

@@ -18,6 +18,7 @@ use unripple_live::{
     Engine, FocusWorker, Follower, LONGEST_WINDOW, Level, LiveOptions, Pulse, Stage, Window,
 };
 use unripple_store::{load_effects, write_kept_wav};
+use unripple_touch::Sources;
 
 /// Most of a drive that is kept, in s. 92 MB in float32 for eight channels at 48 kHz.
 const KEPT: f64 = 60.0;
@@ -26,23 +27,23 @@ const KEPT: f64 = 60.0;
 const FOLLOWED: f64 = 0.4;
 
 /// How often fingers are reported, in s of played time. As fast as figures can be read.
-const TELL: f64 = 0.2;
+pub(super) const TELL: f64 = 0.2;
 
 /// What is computed before anything plays: seconds for a surface whose modes need a mesh.
-struct Prepared {
-    surface: Surface,
+pub(super) struct Prepared {
+    pub(super) surface: Surface,
     responses: Arc<Responses>,
     set: EffectSet,
     maker: FocusWorker,
     settings: LiveOptions,
-    window: Window,
+    pub(super) window: Window,
     level: Level,
     without_scale: bool,
     notes: Vec<Note>,
 }
 
 /// Computes responses, window and level, and checks the files that are to be written.
-fn prepare(ask: &Ask, progress: &mut dyn Progress) -> Result<Prepared, TaskError> {
+pub(super) fn prepare(ask: &Ask, progress: &mut dyn Progress) -> Result<Prepared, TaskError> {
     let source = source::open(&ask.surface, progress)?;
     let (surface, without_scale) = (source.surface.clone(), source.without_scale().is_some());
     let notes = source.stored.as_ref().map_or_else(Vec::new, |stored| stored.notes.clone());
@@ -76,30 +77,12 @@ fn prepare(ask: &Ask, progress: &mut dyn Progress) -> Result<Prepared, TaskError
 /// within 0.2 s if it is cancelled before it plays.
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let prepared = apart(ask.clone(), prepare, progress)?;
-    let Prepared { surface, responses, set, maker, settings, window, level, without_scale, notes } = prepared;
-    let (touches, sources) = Touches::open(&ask.touch, &surface)?;
-    // A virtual surface computes its own modes.
-    let asked = (ask.clone(), surface.clone());
-    let Opened { device, feeler, latency } =
-        apart(asked, |(ask, surface), _| open::open(ask, surface), progress)?;
-    let engine = Engine::new(&surface, maker, &set, sources, device, &settings)?;
-    let mut engine = match feeler {
-        Some(feeler) => engine.with_feeler(feeler),
-        None => engine,
-    };
+    let (touches, sources) = Touches::open(&ask.touch, &prepared.surface)?;
+    let (mut engine, report) = join(ask, prepared, sources, progress)?;
     if let Some(listener) = touches.listener() {
         engine = engine.with_listener(listener);
     }
-    if ask.follow_tension {
-        let (follower, ping) = follower(&surface, &responses, &settings, latency)?;
-        engine = engine.with_follower(follower, &ping)?;
-    }
-    for line in [window.to_string(), level.to_string()].iter().chain(&touches.told) {
-        progress.tell(line);
-    }
-    let mut report = Report::new(&surface, &window, &level);
-    report.notes = notes;
-    report.without_scale = without_scale;
+    touches.told.iter().for_each(|line| progress.tell(line));
     let mut session = Session { ask, touches, report, told: 0.0, progress };
     let seconds = seconds_to_play(ask, session.touches.lasts)?;
     session.touches.begin();
@@ -109,6 +92,35 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     }
     session.touches.finish()?;
     Ok(session.report.finish(&mut engine))
+}
+
+/// Joins what was prepared to the sources of touches and to the device, which is opened here, and says with which window and level it plays.
+/// The report is still empty.
+pub(super) fn join(
+    ask: &Ask,
+    prepared: Prepared,
+    sources: Sources,
+    progress: &mut dyn Progress,
+) -> Result<(Engine, Report), TaskError> {
+    let Prepared { surface, responses, set, maker, settings, window, level, without_scale, notes } = prepared;
+    // A virtual surface computes its own modes.
+    let asked = (ask.clone(), surface.clone());
+    let Opened { device, feeler, latency } =
+        apart(asked, |(ask, surface), _| open::open(ask, surface), progress)?;
+    let mut engine = Engine::new(&surface, maker, &set, sources, device, &settings)?;
+    if let Some(feeler) = feeler {
+        engine = engine.with_feeler(feeler);
+    }
+    if ask.follow_tension {
+        let (follower, ping) = follower(&surface, &responses, &settings, latency)?;
+        engine = engine.with_follower(follower, &ping)?;
+    }
+    progress.tell(&window.to_string());
+    progress.tell(&level.to_string());
+    let mut report = Report::new(&surface, &window, &level);
+    report.notes = notes;
+    report.without_scale = without_scale;
+    Ok((engine, report))
 }
 
 /// The worker that computes drives; from a library, also at places between its points.
