@@ -79,7 +79,8 @@ impl Lane {
     }
 
     /// Runs `work` on its own thread and returns its result, or [`TaskError::Cancelled`] within 0.2 s after `progress` reports a
-    /// cancellation. If the work has begun to put its results in place by then, its own result is awaited and returned.
+    /// cancellation. If the work has begun to put its results in place by then, its own result is awaited and returned. The work may take
+    /// its progress to another thread.
     ///
     /// ```
     /// use unripple_tasks::{Lane, Silent};
@@ -92,7 +93,7 @@ impl Lane {
     /// Those of the work; [`TaskError::Cancelled`]; [`TaskError::Work`] if the work panicked or no thread can be had.
     pub fn run<R: Send + 'static>(
         &self,
-        work: impl FnOnce(&mut dyn Progress) -> Result<R, TaskError> + Send + 'static,
+        work: impl FnOnce(&mut (dyn Progress + Send)) -> Result<R, TaskError> + Send + 'static,
         progress: &mut dyn Progress,
     ) -> Result<R, TaskError> {
         self.wait(progress)?;

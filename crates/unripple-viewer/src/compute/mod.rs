@@ -118,7 +118,7 @@ impl ComputeWorker {
     fn aside<R: Send + 'static>(
         &self,
         progress: &mut dyn Progress,
-        work: impl FnOnce(&mut dyn Progress) -> Result<R, TaskError> + Send + 'static,
+        work: impl FnOnce(&mut (dyn Progress + Send)) -> Result<R, TaskError> + Send + 'static,
     ) -> Result<R, Unfinished> {
         Ok(self.lane.run(work, progress)?)
     }
