@@ -55,8 +55,9 @@ pub fn programs(root: &Path, arguments: &[String]) -> Result<Built, String> {
 
 /// Cargo's messages, a line each in JSON, of the programs that it built.
 fn build(root: &Path, chosen: &[String]) -> Result<String, String> {
+    // `--lib` would ask for tests of the library that Python alone can load; `--tests` leaves out what its manifest says has none.
     let output = cargo(root)
-        .args(["test", "--profile", PROFILE, "--lib", "--bins", "--tests", "--no-run"])
+        .args(["test", "--profile", PROFILE, "--tests", "--no-run"])
         .arg("--message-format=json-render-diagnostics")
         .args(chosen)
         .stderr(Stdio::inherit())
