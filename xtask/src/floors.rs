@@ -25,6 +25,7 @@ const FLOORS: &[(&str, i8)] = &[
     ("unripple-paper", 6),
     ("unripple-viewer", 6),
     ("unripple-cli", 7),
+    ("unripple-python", 8),
 ];
 
 fn floor(name: &str) -> Option<i8> {

@@ -1,0 +1,28 @@
+//! `_unripple`: the part in Rust of the Python package, below the typed classes of `python/unripple`.
+//!
+//! Places are in metres and times in seconds throughout; the package converts. Long work is done with the GIL released, on a thread of its
+//! own ([`progress`]), and its errors are raised as the classes of `unripple._errors` ([`error`]).
+
+mod commands;
+mod error;
+mod leaving;
+mod progress;
+mod surface;
+mod threads;
+
+/// What the package `unripple` is built on, in Rust. Private: use `unripple`. Places are in metres, times in seconds, frequencies in hertz.
+#[pyo3::pymodule]
+mod _unripple {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::commands::{Done, builtin, command_line, commit, default_ask, effects, names, run, version};
+    #[pymodule_export]
+    use crate::surface::Surface;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        unripple_tasks::record::built_from(unripple_cli::COMMIT);
+        crate::leaving::watch(module)
+    }
+}
