@@ -3,6 +3,8 @@
 //! Places are in metres and times in seconds throughout; the package converts. Long work is done with the GIL released, on a thread of its
 //! own ([`progress`]), and its errors are raised as the classes of `unripple._errors` ([`error`]).
 
+mod arguments;
+mod arrays;
 mod commands;
 mod error;
 mod leaving;
