@@ -6,6 +6,7 @@
 mod arguments;
 mod arrays;
 mod commands;
+mod drive;
 mod error;
 mod leaving;
 mod progress;
@@ -19,6 +20,8 @@ mod _unripple {
 
     #[pymodule_export]
     use crate::commands::{Done, builtin, command_line, commit, default_ask, effects, names, run, version};
+    #[pymodule_export]
+    use crate::drive::{Drive, read_wav};
     #[pymodule_export]
     use crate::surface::Surface;
 
