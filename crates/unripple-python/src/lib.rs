@@ -8,8 +8,10 @@ mod arrays;
 mod commands;
 mod drive;
 mod error;
+mod focused;
 mod leaving;
 mod progress;
+mod responses;
 mod surface;
 mod threads;
 
@@ -22,6 +24,10 @@ mod _unripple {
     use crate::commands::{Done, builtin, command_line, commit, default_ask, effects, names, run, version};
     #[pymodule_export]
     use crate::drive::{Drive, read_wav};
+    #[pymodule_export]
+    use crate::focused::Focused;
+    #[pymodule_export]
+    use crate::responses::Responses;
     #[pymodule_export]
     use crate::surface::Surface;
 
