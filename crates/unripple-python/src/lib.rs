@@ -8,6 +8,7 @@ mod arrays;
 mod commands;
 mod drive;
 mod error;
+mod field;
 mod focused;
 mod leaving;
 mod progress;
@@ -24,6 +25,8 @@ mod _unripple {
     use crate::commands::{Done, builtin, command_line, commit, default_ask, effects, names, run, version};
     #[pymodule_export]
     use crate::drive::{Drive, read_wav};
+    #[pymodule_export]
+    use crate::field::Field;
     #[pymodule_export]
     use crate::focused::Focused;
     #[pymodule_export]

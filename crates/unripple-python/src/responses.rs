@@ -4,7 +4,9 @@ mod array;
 mod held;
 
 use crate::arrays::{moved, places, points, shared, singles};
+use crate::drive::Drive;
 use crate::error::raised;
+use crate::field::Field;
 use crate::focused::Focused;
 use crate::progress::{brief, work};
 use crate::surface::Surface;
@@ -303,6 +305,25 @@ impl Responses {
         threads: Option<usize>,
     ) -> PyResult<Focused> {
         Focused::of(py, self.task(py, ask, (progress, threads), Held::stroke)?)
+    }
+
+    /// Evaluates what a drive does to the surface. `ask` is that of the task `field`, as JSON in SI units; its surface is these responses, its
+    /// drive is `drive`, and nothing is written. A surface is evaluated on modes up to twice its band, or up to `max_hz` where the responses have
+    /// one, under their fingers if the ask has none.
+    ///
+    /// Raises what the task raises, and AskError of an output.
+    #[pyo3(signature = (ask, drive, progress=None, threads=None))]
+    fn field(
+        &self,
+        py: Python<'_>,
+        ask: &str,
+        drive: &Bound<'_, Drive>,
+        progress: Option<Py<PyAny>>,
+        threads: Option<usize>,
+    ) -> PyResult<Field> {
+        let drive = drive.get().inner().clone();
+        let run = move |held: &Held, ask, progress: &mut dyn Progress| held.field(ask, &drive, progress);
+        Ok(Field::of(self.task(py, ask, (progress, threads), run)?))
     }
 }
 

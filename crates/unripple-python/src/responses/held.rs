@@ -2,18 +2,20 @@
 
 use super::array::{self, Given};
 use crate::commands::Done;
+use crate::field::Seen;
 use crate::focused::{Draw, Outcome};
 use std::path::Path;
 use std::sync::Arc;
 use unripple::calibrate::Interpolation;
-use unripple::core::{ModalResponses, Point, Responses, SampledResponses, Surface, window_samples};
+use unripple::core::{Drive, ModalResponses, Point, Responses, SampledResponses, Surface, window_samples};
 use unripple::physics::sample;
 use unripple_store::Library;
+use unripple_tasks::field::DriveAsk;
 use unripple_tasks::figures::Columns;
 use unripple_tasks::record::Request;
 use unripple_tasks::{
-    Place, Progress, Record, Solved, Source, SurfaceAsk, TaskError, between, fingers, focus, go_on, source,
-    stroke, waveform,
+    Place, Progress, Record, Solved, Source, SurfaceAsk, TaskError, between, field, fingers, focus, go_on,
+    point, source, stroke, waveform,
 };
 
 /// Most samples of a response times modes, whose tables take up to 6 GiB, and most samples of all responses together, 2 GiB of them. Doubled,
@@ -221,6 +223,39 @@ impl Held {
         self.name(&mut ask.surface);
         let record = self.record(&ask)?;
         played(stroke::make_on(&ask, self.source.clone(), progress)?, columns, record.as_ref())
+    }
+
+    /// Evaluates what a drive does to the surface. The record holds the samples of the drive.
+    pub fn field(
+        &self,
+        mut ask: field::Ask,
+        drive: &Drive,
+        progress: &mut dyn Progress,
+    ) -> Result<Seen, TaskError> {
+        let columns = columns(ask.no_figures, ask.columns, ask.output.as_deref())?;
+        self.name(&mut ask.surface);
+        self.touch(&mut ask.fingers_m);
+        if let Origin::Surface { max_hz, .. } = &self.origin {
+            ask.judge_hz = ask.judge_hz.or(*max_hz);
+        }
+        if let (true, Some(stored)) = (self.is_made_up(), self.stored()) {
+            let places: Vec<Point> = ask.points_m.iter().map(point).collect();
+            array::between(stored, &places, ask.between)?;
+        }
+        let record = match &self.origin {
+            Origin::Array { .. } => None,
+            Origin::Surface { .. } | Origin::Library(_) => {
+                let channels = drive.channels().to_vec();
+                let recorded = DriveAsk::Samples { channels, rate_hz: drive.rate() };
+                Some(Record::of(&field::Ask { drive: recorded, ..ask.clone() })?)
+            }
+        };
+        let mut made = field::make_on(&ask, self.source.clone(), drive.clone(), progress)?;
+        if self.is_made_up() {
+            array::forget(&mut made.report);
+        }
+        let (done, made) = (Done::of(&made.report, record.as_ref())?, Arc::new(made));
+        Ok(Seen { done, draw: draw(made.clone(), columns, field::figures), made })
     }
 
     /// Whether the surface is made up, so that nobody knows its sheet.
