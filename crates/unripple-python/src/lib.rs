@@ -11,10 +11,12 @@ mod error;
 mod field;
 mod focused;
 mod leaving;
+mod player;
 mod progress;
 mod responses;
 mod surface;
 mod threads;
+mod virtual_surface;
 
 /// What the package `unripple` is built on, in Rust. Private: use `unripple`. Places are in metres, times in seconds, frequencies in hertz.
 #[pyo3::pymodule]
@@ -30,9 +32,13 @@ mod _unripple {
     #[pymodule_export]
     use crate::focused::Focused;
     #[pymodule_export]
+    use crate::player::Player;
+    #[pymodule_export]
     use crate::responses::Responses;
     #[pymodule_export]
     use crate::surface::Surface;
+    #[pymodule_export]
+    use crate::virtual_surface::VirtualSurface;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
