@@ -1,0 +1,285 @@
+"""Options of every command by their names on the command line, and the ask that they make.
+
+An ask holds what a task is asked, in SI units. Each option below sets one field of it, by the same floating-point operation as the command
+line's; the fields' own names are accepted as well.
+"""
+
+from __future__ import annotations
+
+import difflib
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache, partial
+from typing import Any
+
+from unripple import _targets, _unripple, _values
+from unripple._errors import AskError, OptionError
+from unripple._values import NOTHING, count, flag, milli, number, path, percent, text
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """An option: its name, the field that it sets (`device.card`: of a table), and how its value becomes the field's."""
+
+    name: str
+    field: str
+    value: Callable[[str, object], Any]
+
+
+def _same(value: Callable[[str, object], Any], *names: str) -> tuple[Option, ...]:
+    """Options that are called as their fields."""
+    return tuple(Option(name, name, value) for name in names)
+
+
+def _in(table: str, value: Callable[[str, object], Any], *names: str) -> tuple[Option, ...]:
+    """Options that are called as their fields, which are in a table of the ask."""
+    return tuple(Option(name, f"{table}.{name}", value) for name in names)
+
+
+def _device(name: str, value: object) -> Any:
+    """Return the kind of a device; a mapping is a whole device, in the ask's own words."""
+    if isinstance(value, Mapping):
+        return _values.plain(name, value)
+    return {"device": text(name, value)}
+
+
+def _places(name: str, *more: str) -> tuple[Option, ...]:
+    """Places in mm: as the command line calls them, and as their field with another unit."""
+    field = f"{more[0]}_m"
+    return Option(name, field, _values.places), Option(f"{more[0]}_mm", field, _values.places)
+
+
+def _wires(name: str, value: object) -> list[list[str]]:
+    """Channels by the names of what is connected to them: a mapping, or texts NAME=CHANNEL."""
+    if isinstance(value, Mapping):
+        return [[text(name, key), text(name, channel)] for key, channel in value.items()]
+    return [list(_halves(name, item, "NAME=CHANNEL")) for item in _values.texts(name, value)]
+
+
+def _halves(name: str, item: str, form: str) -> tuple[str, str]:
+    key, equals, value = item.partition("=")
+    if not (key and equals and value):
+        raise AskError(field=name, expected=form, found=f"`{item}`")
+    return key, value
+
+
+def _scales(name: str, value: object) -> dict[str, Any]:
+    """Scales of inputs: a number for all, a mapping by their names, or texts [NAME=]SCALE."""
+    if isinstance(value, Mapping):
+        return {"named": {text(name, key): number(name, scale) for key, scale in value.items()}}
+    if not isinstance(value, str) and not hasattr(value, "__iter__"):
+        return {"all": number(name, value)}
+    found: dict[str, Any] = {"named": {}}
+    for item in _values.texts(name, value):
+        key, equals, scale = item.rpartition("=")
+        read = _values.row(name, scale, "a number, as in probe=0.5", 1, 1)[0]
+        if equals:
+            found["named"][key] = read
+        else:
+            found["all"] = read
+    return found
+
+
+def _limit(name: str, value: object) -> Any:
+    """Return the level of the drive limit, if it is wanted."""
+    return "limit" if flag(name, value) else NOTHING
+
+
+def _surface(_name: str, value: object) -> Any:
+    from unripple._naming import surface_ask
+
+    return surface_ask(value)
+
+
+def _drive(name: str, value: object) -> Any:
+    """Return a drive: a WAV file, or samples."""
+    from unripple._drive import Drive
+
+    if isinstance(value, Drive):
+        return {"channels": value.samples.tolist(), "rate_hz": value.rate_hz}
+    return _values.plain(name, value) if isinstance(value, Mapping) else path(name, value)
+
+
+_DEVICE = (
+    Option("device", "device", _device),
+    *_in("device", text, "jack_client", "jack_server", "card", "capture_card"),
+    *_in("device", flag, "freewheel"),
+    *_in("device", count, "card_block", "unknowns"),
+    *_in("device", path, "tape"),
+    *_in("device", _values.named, "tape_inputs"),
+    *_in("device", number, "output_scale", "snr_db"),
+)
+
+_TARGETS = (
+    Option("at", "points", _targets.points),
+    Option("points", "points", _targets.points),
+    Option("shape", "shapes", _targets.shapes),
+    Option("shapes", "shapes", _targets.shapes),
+    Option("peak_um", "level", _targets.peak_um),
+    Option("peak_m", "level", _targets.peak_m),
+    Option("felt_db", "level", _targets.felt_db),
+    Option("full_limit", "level", _limit),
+)
+
+_WINDOW = (Option("window_ms", "window_s", milli),)
+_FIGURES = (*_same(flag, "no_figures"), *_same(count, "columns"), *_same(path, "output"))
+_JUDGED = (*_same(number, "judge_hz"), Option("on", "on", _surface))
+_POINTS = (*_places("at", "points"), Option("grid_mm", "pitch_m", milli))
+
+#: The options of each command but `surface`, `set` and `vary`, which are read apart.
+OPTIONS: dict[str, tuple[Option, ...]] = {
+    "check": (),
+    "materials": _same(text, "name"),
+    "devices": _same(text, "server"),
+    "design": (),
+    "modes": (Option("max_hz", "top_hz", number), *_same(number, "accuracy")),
+    "respond": (
+        Option("grid_mm", "pitch_m", milli),
+        Option("length_ms", "length_s", milli),
+        *_same(path, "output"),
+    ),
+    "focus": (
+        *_TARGETS,
+        *_WINDOW,
+        *_FIGURES,
+        *_JUDGED,
+        *_same(text, "method", "between", "losses"),
+        *_same(number, "strength", "push", "total_rms", "worst", "economy"),
+        *_same(flag, "rest", "finger_aware"),
+        Option("spread_percent", "spread", percent),
+        Option("duration_ms", "duration_s", milli),
+        *_places("finger", "fingers"),
+        *_places("bear_finger", "bear_fingers"),
+        Option("bear_tension_percent", "bear_tension", percent),
+    ),
+    "waveform": (
+        Option("waveform", "waveforms", _targets.waveforms),
+        Option("waveforms", "waveforms", _targets.waveforms),
+        *_places("silent", "silent"),
+        *_WINDOW,
+        *_FIGURES,
+        *_JUDGED,
+    ),
+    "stroke": (
+        Option("path", "path", _targets.stroke_path),
+        Option("speed_mm_s", "speed_m_s", milli),
+        Option("level_mm_s", "level_m_s", milli),
+        *_WINDOW,
+        *_FIGURES,
+        *_JUDGED,
+    ),
+    "compare": (
+        *_TARGETS,
+        *_WINDOW,
+        *_FIGURES,
+        *_same(number, "judge_hz"),
+        Option("method", "methods", _values.texts),
+        *_same(_values.texts, "labels"),
+    ),
+    "field": (
+        Option("drive", "drive", _drive),
+        *_places("at", "points"),
+        Option("at_ms", "instants_s", _values.times_ms),
+        Option("instants_s", "instants_s", _values.times),
+        *_places("finger", "fingers"),
+        Option("period_ms", "period_s", milli),
+        *_same(number, "judge_hz"),
+        *_FIGURES,
+        Option("movie_ms", "movie_s", _values.span_ms),
+        *_same(count, "frames"),
+        *_same(text, "between"),
+    ),
+    "calibrate": (
+        *_DEVICE,
+        *_POINTS,
+        *_same(text, "by"),
+        *_same(count, "repeats"),
+        Option("sweep_ms", "sweep_s", milli),
+        Option("response_ms", "response_s", milli),
+        *_same(number, "level"),
+        Option("wire", "wires", _wires),
+        Option("input_scale", "input_scales", _scales),
+        *_same(_values.texts, "without"),
+        Option("probe_delay_ms", "probe_delay_s", milli),
+        *_same(flag, "no_model", "resample", "check_levels", "any_wiring"),
+        *_same(path, "figure", "output"),
+    ),
+    "fit": (
+        *_same(path, "library", "output"),
+        *_POINTS,
+        *_same(count, "strays", "profile"),
+        *_same(flag, "even_if_doubtful"),
+    ),
+    "export": (
+        *_same(path, "library", "output"),
+        *_same(text, "format", "author", "organization", "license"),
+    ),
+    "drift": (
+        *_DEVICE,
+        *_same(number, "seconds"),
+        Option("within_percent", "range", percent),
+        Option("changed_percent", "changed", percent),
+        Option("changing_percent_per_min", "changing_per_min", percent),
+    ),
+    "doctor": (*_DEVICE, Option("tuio", "tuio", partial(_values.port, 3333)), *_same(text, "listen")),
+    "play": (
+        *_DEVICE,
+        *_same(path, "effect", "keep_drive"),
+        *_in("touch", count, "fingers", "seed"),
+        Option("tuio", "touch.tuio", partial(_values.port, 3333)),
+        Option("websocket", "touch.websocket", partial(_values.port, 8765)),
+        *_in("touch", text, "listen"),
+        *_in("touch", _values.paths, "screen"),
+        *_in("touch", path, "session", "record"),
+        *_same(text, "method"),
+        *_WINDOW,
+        *_same(count, "block"),
+        *_same(number, "seconds"),
+        *_same(flag, "full_limit", "follow_tension", "real_time"),
+        Option("drift_percent", "drift", percent),
+    ),
+    "reproduce": (*_same(path, "output"), *_same(count, "placements")),
+    "rerun": _same(path, "report", "output"),
+}
+
+#: Fields in SI units that are lists of places, which are given as arrays too.
+_PLACES_M = ("points_m", "fingers_m", "silent_m", "bear_fingers_m")
+
+#: Options of every call, which are no part of an ask.
+OF_CALLS = ("progress", "threads")
+
+
+@cache
+def fields(command: str) -> Mapping[str, str]:
+    """The fields of a command's ask by their names; those of a table stand beside the others, by their path."""
+    found: dict[str, str] = {}
+    for field, value in json.loads(_unripple.default_ask(command)).items():
+        found[field] = field
+        if field in ("device", "touch"):
+            found.update({inner: f"{field}.{inner}" for inner in value if inner != field})
+    return found
+
+
+@cache
+def by_name(command: str) -> Mapping[str, Option]:
+    """All options of a command by their names: those of the command line, and its fields in SI units."""
+    found = {option.name: option for option in OPTIONS.get(command, ())}
+    for name, field in fields(command).items():
+        value = _values.places_m if name in _PLACES_M else _values.plain
+        found.setdefault(name, Option(name, field, value))
+    return found
+
+
+def names(command: str) -> list[str]:
+    """All names that options of a command may have."""
+    own = {"surface": ["set"], "others": ["vary"], "points": ["targets"]}
+    more = [name for field, names in own.items() if field in fields(command) for name in names]
+    return [*by_name(command), *more, *OF_CALLS]
+
+
+def unknown(command: str, name: str, known: list[str]) -> OptionError:
+    """Return the error of an option that a command does not have."""
+    nearest = difflib.get_close_matches(name, known, 1)
+    hint = f" (nearest: {nearest[0]})" if nearest else ""
+    return OptionError(f"{command}: expected an option that it has, found {name}{hint}")
