@@ -1,0 +1,200 @@
+"""Reports of tasks: read-only mappings whose keys are attributes too."""
+
+from __future__ import annotations
+
+import difflib
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Literal
+
+from unripple import _progress
+from unripple._errors import InputError
+
+if TYPE_CHECKING:
+    from unripple import _unripple
+
+
+class Part(Mapping[str, Any]):
+    """A part of a report: a read-only mapping whose keys are attributes too."""
+
+    __slots__ = ("_data",)
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self._data = data
+
+    def __getitem__(self, key: str) -> Any:
+        return _wrapped(self._data[key])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._data)
+
+    def __len__(self) -> int:
+        return len(self._data)
+
+    def __getattr__(self, name: str) -> Any:
+        # Looked up in the class's own way only: a copy under construction has no data yet.
+        data: dict[str, Any] = object.__getattribute__(self, "_data")
+        if name in data:
+            return _wrapped(data[name])
+        nearest = difflib.get_close_matches(name, data, 1)
+        hint = f" (nearest: {nearest[0]})" if nearest else ""
+        raise AttributeError(f"expected a key of the report, found {name}{hint}")
+
+    def __dir__(self) -> Iterable[str]:
+        return [*super().__dir__(), *self._data]
+
+    def __repr__(self) -> str:
+        return repr(self._data)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Part, (self._data,)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return a copy as nested dicts and lists."""
+        copied: dict[str, Any] = json.loads(json.dumps(self._data))
+        return copied
+
+    def _repr_html_(self) -> str:
+        from unripple import _html
+
+        return _html.report(self._data)
+
+
+class Report(Part):
+    """Results of a task: a read-only mapping in SI units, whose keys are attributes too, at every depth.
+
+    ``str()`` is the report for people, as the command line prints it. Keys are defined in ``docs/json.md``; their endings name units
+    (``_m``, ``_s``, ``_hz``, ``_m_s``, ``_db``).
+
+    Attributes
+    ----------
+    failure
+        Why the task counts as failed although there is a report, such as a doubtful library; None if it succeeded.
+
+    Examples
+    --------
+    >>> import unripple as ur
+    >>> report = ur.modes("hudin-2012", max_hz=300)
+    >>> report.count == len(report["frequencies_hz"])
+    True
+    >>> report.run.command
+    'modes'
+    >>> report.failure is None
+    True
+    """
+
+    __slots__ = ("_failure", "_json", "_text")
+
+    def __init__(self, text: str, as_json: str, failure: str | None = None) -> None:
+        try:
+            data = json.loads(as_json)
+        except ValueError as error:
+            raise InputError(f"report: expected JSON, found {error}") from None
+        if not isinstance(data, dict):
+            raise InputError("report: expected an object of JSON, found another value")
+        super().__init__(data)
+        self._text = text
+        self._json = as_json
+        self._failure = failure
+
+    @classmethod
+    def _of(cls, done: _unripple.Done) -> Report:
+        """Return the report of a task that is done; warn if it counts as failed."""
+        report = cls(done.text, done.json, done.failure)
+        if done.failure is not None:
+            _progress.warn(done.failure)
+        return report
+
+    @property
+    def failure(self) -> str | None:
+        """Why the task counts as failed although it has a report, or None."""
+        return self._failure
+
+    def __str__(self) -> str:
+        return self._text.rstrip("\n")
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Report, (self._text, self._json, self._failure)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return a copy as nested dicts and lists, equal to what ``json.loads`` makes of the command line's ``--json``.
+
+        Returns
+        -------
+        dict
+
+        Examples
+        --------
+        >>> import json
+        >>> import unripple as ur
+        >>> report = ur.design("hudin-2012")
+        >>> report.to_dict() == json.loads(report.to_json())
+        True
+        """
+        copied: dict[str, Any] = json.loads(self._json)
+        return copied
+
+    def to_json(self) -> str:
+        """Return the report as JSON: the text that the command line prints with ``--json``.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import unripple as ur
+        >>> ur.design("hudin-2012").to_json()[0]
+        '{'
+        """
+        return self._json
+
+    def to_dataframe(
+        self, key: str | None = None, *, library: Literal["pandas", "polars"] | None = None
+    ) -> Any:
+        """Return a table of the report as a data frame.
+
+        Parameters
+        ----------
+        key
+            What becomes the table: a key, or keys joined by dots (``"paper.table1"``). A list of objects becomes a row each, a list of
+            numbers a column, an object one row. By default the report's own table, such as ``targets`` of a focus, ``methods`` of a
+            comparison, ``dispersion`` of a design, or one row for each mode.
+        library
+            ``"pandas"`` or ``"polars"``; by default the one that is installed, pandas if both are.
+
+        Returns
+        -------
+        pandas.DataFrame or polars.DataFrame
+            Columns are called as the keys; those of nested objects are joined by dots.
+
+        Raises
+        ------
+        ImportError
+            If the library is not installed.
+        OptionError
+            If the report has no such key.
+
+        Examples
+        --------
+        >>> import unripple as ur
+        >>> report = ur.modes("hudin-2012", max_hz=300)
+        >>> frame = report.to_dataframe()
+        >>> len(frame) == report.count
+        True
+        """
+        from unripple import _labels
+
+        return _labels.dataframe(self._data, key, library)
+
+
+def _wrapped(value: Any) -> Any:
+    """Return a value of the data, with what would let it be changed replaced by copies."""
+    if isinstance(value, dict):
+        return Part(value)
+    if isinstance(value, list):
+        return [_wrapped(item) for item in value]
+    return value
