@@ -1,0 +1,82 @@
+"""Waves that meet under a fingertip: design, simulate, measure, focus and play a reverberant touch surface."""
+
+from unripple import _unripple
+from unripple._drive import Drive
+from unripple._drives import field, focus, stroke, waveform
+from unripple._errors import (
+    AskError,
+    Cancelled,
+    Fault,
+    InputError,
+    OptionError,
+    SurfaceError,
+    UnrippleError,
+    UnrippleWarning,
+    WorkError,
+)
+from unripple._field import Field
+from unripple._libraries import calibrate, export, fit, open, respond
+from unripple._lists import builtin, commands, devices, effects, materials
+from unripple._motion import Snapshots, Traces
+from unripple._player import Felt, Player
+from unripple._progress import set_progress, set_threads
+from unripple._report import Report
+from unripple._responses import Responses
+from unripple._surface import Surface
+from unripple._tasks import check, compare, design, doctor, drift, modes, play, reproduce, rerun, run
+from unripple._view import View
+from unripple._virtual import FingerMotion, VirtualSurface
+
+__all__ = [
+    "AskError",
+    "Cancelled",
+    "Drive",
+    "Fault",
+    "Felt",
+    "Field",
+    "FingerMotion",
+    "InputError",
+    "OptionError",
+    "Player",
+    "Report",
+    "Responses",
+    "Snapshots",
+    "Surface",
+    "SurfaceError",
+    "Traces",
+    "UnrippleError",
+    "UnrippleWarning",
+    "View",
+    "VirtualSurface",
+    "WorkError",
+    "__version__",
+    "builtin",
+    "calibrate",
+    "check",
+    "commands",
+    "compare",
+    "design",
+    "devices",
+    "doctor",
+    "drift",
+    "effects",
+    "export",
+    "field",
+    "fit",
+    "focus",
+    "materials",
+    "modes",
+    "open",
+    "play",
+    "reproduce",
+    "rerun",
+    "respond",
+    "run",
+    "set_progress",
+    "set_threads",
+    "stroke",
+    "waveform",
+]
+
+#: Version of the package and of the program in it.
+__version__ = _unripple.version()
