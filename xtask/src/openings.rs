@@ -8,14 +8,15 @@ const WORDS: usize = 2;
 
 /// Finds source files whose first line does not describe them.
 pub fn check(root: &Path) -> Vec<String> {
-    let files = sources::files(root, &[".rs"]).into_iter();
+    let files = sources::files(root, &[".rs", ".py", ".pyi"]).into_iter();
     let silent = files.filter(|path| !opens(&std::fs::read_to_string(path).unwrap_or_default()));
     silent.map(|path| format!("{}: expected a first line that says what it is", path.display())).collect()
 }
 
 fn opens(text: &str) -> bool {
     let first = text.lines().next().unwrap_or_default();
-    first.strip_prefix("//!").is_some_and(|said| said.split_whitespace().count() >= WORDS)
+    let said = first.strip_prefix("//!").or_else(|| first.strip_prefix("\"\"\""));
+    said.is_some_and(|said| said.split_whitespace().count() >= WORDS)
 }
 
 #[cfg(test)]
@@ -27,5 +28,7 @@ mod tests {
         assert!(opens("//! Gauss-Legendre quadrature.\n\nuse std::fmt;\n"));
         assert!(!opens("use std::fmt;\n"));
         assert!(!opens("//! Modes.\n"));
+        assert!(opens("\"\"\"Modes by plain numpy.\"\"\"\n\nimport numpy\n"));
+        assert!(!opens("import numpy\n"));
     }
 }

@@ -12,7 +12,7 @@ pub fn check(root: &Path) -> Vec<String> {
     let home = ["/ho", "me/"].concat();
     let banned = [open, missing, mark, ignored, home];
     let mut faults = Vec::new();
-    for path in sources::files(root, &[".rs", ".py", ".toml", ".md", ".svg", ".html"]) {
+    for path in sources::files(root, &[".rs", ".py", ".pyi", ".toml", ".md", ".svg", ".html"]) {
         let text = std::fs::read_to_string(&path).unwrap_or_default();
         for (number, line) in text.lines().enumerate() {
             if let Some(word) = banned.iter().find(|word| line.contains(word.as_str())) {
