@@ -1,7 +1,9 @@
 //! A JACK server with its dummy driver, for tests.
 #![allow(dead_code)] // Each test file uses its own part of this.
 
-use std::process::{Child, Command, Stdio};
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 use unripple_core::Device;
@@ -16,6 +18,8 @@ pub struct Server {
     pub name: String,
     /// Samples in a cycle, as it was started.
     pub period: usize,
+    /// Where what it says is kept.
+    said: PathBuf,
 }
 
 impl Server {
@@ -37,15 +41,28 @@ impl Server {
     }
 
     fn with(name: &str, period: usize, scheduling: &[&str]) -> Option<Self> {
+        let said = std::env::temp_dir().join(format!("{name}.jackd"));
+        let output = File::create(&said).unwrap();
         let child = Command::new("jackd")
             .args(scheduling)
             .args(["--no-mlock", "--name", name])
             .args(["-d", "dummy", "-r", "48000", "-p", &period.to_string(), "-C", "2", "-P", "2"])
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .ok()?;
-        Some(Self { child, name: name.to_owned(), period })
+            .stdout(output.try_clone().unwrap())
+            .stderr(output)
+            .spawn();
+        let Ok(child) = child else {
+            // Nobody wrote to it.
+            let _ = std::fs::remove_file(said);
+            return None;
+        };
+        Some(Self { child, name: name.to_owned(), period, said })
+    }
+
+    /// What the server has said, and how the kernel sees it: for whoever wonders why it gives no answer.
+    fn story(&self) -> String {
+        let read = |path: &Path| std::fs::read_to_string(path).unwrap_or_else(|error| error.to_string());
+        let stat = read(Path::new(&format!("/proc/{}/stat", self.child.id())));
+        format!("jackd {}: {stat}\n{}", self.child.id(), read(&self.said))
     }
 
     /// Lets the server stand still, as on a machine that is overloaded, or go on.
@@ -94,6 +111,10 @@ impl Server {
                 Err(DevicesError::Jack { .. }) if start.elapsed() < Duration::from_secs(10) => {
                     std::thread::sleep(Duration::from_millis(50));
                 }
+                Err(error) => {
+                    eprintln!("no answer: {}", self.story());
+                    return Err(error);
+                }
                 other => return other,
             }
         }
@@ -103,5 +124,7 @@ impl Server {
 impl Drop for Server {
     fn drop(&mut self) {
         self.stop();
+        // It is gone already where a server of the same name came after this one.
+        let _ = std::fs::remove_file(&self.said);
     }
 }
