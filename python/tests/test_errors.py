@@ -193,3 +193,38 @@ def test_a_report_that_counts_as_failed_warns(folder: Path) -> None:
     with pytest.warns(ur.UnrippleWarning) as caught:
         ur.check("plate.toml")
     assert caught[0].filename == __file__
+
+
+def test_metres_in_place_of_mm_are_warned_of() -> None:
+    film = ur.Surface("hudin-2012", band_hz=[0, 300])
+    with pytest.warns(ur.UnrippleWarning, match="given in mm"), pytest.raises(ur.InputError):
+        film.focus([(0.062, 0.09)], window_ms=20)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        film.focus([(62, 90)], window_ms=20, method="time_reversal")
+
+
+def test_points_that_are_the_same_are_refused() -> None:
+    with pytest.raises(ur.AskError, match="the same at 0 and 1"):
+        ur.Responses.from_numpy(
+            np.ones((2, 1, 9), np.float32),
+            rate_hz=48000,
+            points_mm=[(30, 40), (30, 40)],
+            actuators_mm=[(10, 10)],
+            lambda_min_mm=20,
+        )
+
+
+def test_what_cannot_be_pickled_says_what_to_keep() -> None:
+    film = ur.Surface("hudin-2012", band_hz=[0, 300])
+    field = film.field(film.focus([(62, 90)], window_ms=20))
+    for thing in (field, film.virtual(), film.player("sandpaper")):
+        with pytest.raises(TypeError, match="keep its surface"):
+            pickle.dumps(thing)
+
+
+def test_a_drive_is_played_to_whole_blocks() -> None:
+    film = ur.Surface("hudin-2012", band_hz=[0, 300])
+    rig = film.virtual(block=64)
+    sensors, probe = rig.exchange(ur.Drive(np.ones((8, 100)), rate_hz=48000, names=film.names))
+    assert sensors.shape == (8, 128) and probe.shape == (128,)

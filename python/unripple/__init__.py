@@ -80,3 +80,8 @@ __all__ = [
 
 #: Version of the package and of the program in it.
 __version__ = _unripple.version()
+
+
+def __dir__() -> list[str]:
+    # What is public; the modules beneath are nobody's.
+    return [*__all__, "__doc__", "__file__", "__name__", "__path__"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -336,10 +336,12 @@ class Field:
     def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]:
         return given(self._cells(self._all().velocity), dtype, copy)
 
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a field cannot be pickled: keep its surface and its drive")
+
     def __repr__(self) -> str:
-        where = (
-            f"{len(self.points_m)} points" if self.grid is None else f"{self.grid[0]} x {self.grid[1]} cells"
-        )
+        grid = self.grid
+        where = f"{len(self.points_m)} points" if grid is None else f"{grid[0]} x {grid[1]} cells"
         return f"<Field on {self._surface.name!r}: {where}, {len(self._report.targets)} places evaluated>"
 
     def _repr_html_(self) -> str:

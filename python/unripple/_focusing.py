@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from typing import TYPE_CHECKING, Any
 
-from unripple import _call
+from unripple import _call, _values
 
 if TYPE_CHECKING:
     from typing import Unpack
@@ -26,7 +26,9 @@ class Focusing:
         """Return the responses from which drives are computed; the option `set`, which changes them, is taken out."""
 
     def _computed(self, command: str, options: dict[str, Any]) -> Drive:
-        return self._source(options)._focused(command, options)
+        source = self._source(options)
+        _values.warn_of_metres("targets", options.get("targets"), source.surface.extent_m)
+        return source._focused(command, options)
 
     def focus(
         self, targets: _types.Targets | None = None, /, **options: Unpack[_types.FocusOptions]
@@ -65,7 +67,9 @@ class Focusing:
         Raises
         ------
         AskError
-            Of a value that makes no sense, such as a target outside.
+            Of a value that makes no sense.
+        InputError
+            Of a target outside the surface; the nearest place on it is named.
 
         Examples
         --------

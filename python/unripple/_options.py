@@ -27,6 +27,16 @@ class Option:
     value: Callable[[str, object], Any]
 
 
+def _method(name: str, value: object) -> str:
+    """Return the name of a method, in which hyphens may be underscores."""
+    return text(name, value).replace("_", "-")
+
+
+def _methods(name: str, value: object) -> list[str]:
+    """Return the names of methods."""
+    return [_method(name, item) for item in _values.texts(name, value)]
+
+
 def _same(value: Callable[[str, object], Any], *names: str) -> tuple[Option, ...]:
     """Options that are called as their fields."""
     return tuple(Option(name, name, value) for name in names)
@@ -144,7 +154,8 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         *_WINDOW,
         *_FIGURES,
         *_JUDGED,
-        *_same(text, "method", "between", "losses"),
+        *_same(_method, "method", "losses"),
+        *_same(text, "between"),
         *_same(number, "strength", "push", "total_rms", "worst", "economy"),
         *_same(flag, "rest", "finger_aware"),
         Option("spread_percent", "spread", percent),
@@ -174,7 +185,7 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         *_WINDOW,
         *_FIGURES,
         *_same(number, "judge_hz"),
-        Option("method", "methods", _values.texts),
+        Option("method", "methods", _methods),
         *_same(_values.texts, "labels"),
     ),
     "field": (
@@ -232,7 +243,7 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         *_in("touch", text, "listen"),
         *_in("touch", _values.paths, "screen"),
         *_in("touch", path, "session", "record"),
-        *_same(text, "method"),
+        *_same(_method, "method"),
         *_WINDOW,
         *_same(count, "block"),
         *_same(number, "seconds"),

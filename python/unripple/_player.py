@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -275,6 +275,9 @@ class Player:
         0
         """
         return Report._of(self._raw.done)
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a player cannot be pickled: keep its surface and effect, and the touches")
 
     def __repr__(self) -> str:
         what = f"{len(self.names)} actuators, blocks of {self.block} samples at {self.rate_hz:g} Hz"

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from unripple import _evaluation, _unripple, _values
 from unripple._drive import Drive, channel_names, floats, given
-from unripple._errors import InputError, OptionError
+from unripple._errors import AskError, InputError, OptionError
 from unripple._field import Field
 from unripple._focusing import Focusing
 from unripple._progress import Telling, chosen_threads
@@ -146,6 +146,7 @@ class Responses(Focusing):
         ('sampled', (3, 8, 2401))
         """
         values = floats("h", h, "points", "actuators", "samples")
+        _refuse_repeated("points_mm", points_mm)
         known = {
             "rate_hz": _values.number("rate_hz", rate_hz),
             "points_m": _metres("points_mm", points_mm),
@@ -356,6 +357,15 @@ class Responses(Focusing):
 def _metres(name: str, places_mm: object) -> npt.NDArray[np.float64]:
     """Return places given in mm as an array in m, of shape (places, 2)."""
     return np.array(_values.places(name, places_mm), dtype=np.float64).reshape(-1, 2)
+
+
+def _refuse_repeated(name: str, places_mm: object) -> None:
+    """Refuse places of which two are the same: their responses would be measured twice, or are those of other places."""
+    seen: dict[tuple[float, ...], int] = {}
+    for index, place in enumerate(_values.places(name, places_mm)):
+        before = seen.setdefault(tuple(place), index)
+        if before != index:
+            raise AskError(field=name, expected="places that differ", found=f"the same at {before} and {index}")
 
 
 def _of_surface_again(surface: Surface, max_hz: float | None, fingers_m: list[list[float]]) -> Responses:

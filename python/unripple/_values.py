@@ -6,15 +6,20 @@ import math
 import numbers
 import operator
 import os
+import warnings
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
-from unripple._errors import AskError, OptionError
+from unripple._errors import AskError, OptionError, UnrippleWarning
 
 #: Stands for an option that is given and sets nothing, such as a flag that is False.
 NOTHING: Any = object()
+
+#: Share of a surface's larger side within which places are taken to be metres given for millimetres: any place on it would lie there. Nobody
+#: aims so near to a corner.
+_METRES = 1e-3
 
 #: Most characters of a value in a message; twice as many fill two lines with one value.
 _SHOWN = 80
@@ -196,3 +201,16 @@ def plain(name: str, value: object) -> Any:
     if isinstance(value, Iterable):
         return [plain(name, item) for item in value]
     raise OptionError(f"{name}: expected a number, a text, a list or a mapping, found {shown(value)}")
+
+
+def warn_of_metres(name: str, points: object, extent_m: tuple[float, float]) -> None:
+    """Warn if all points among targets, in mm, are so near to the corner of a surface that they seem to be in metres."""
+    try:
+        places = [(float(point[0]), float(point[1])) for point in points if not isinstance(point, (str, Mapping))]  # type: ignore[attr-defined]
+    except (TypeError, ValueError, LookupError):
+        # What they are is said by whoever takes them.
+        return
+    near = 1e3 * _METRES * max(extent_m)
+    if places and max(max(abs(x), abs(y)) for x, y in places) <= near:
+        said = f"{name} are given in mm, and these lie within {near:.2g} mm of the surface's corner"
+        warnings.warn(f"{said}: are they in metres?", UnrippleWarning, stacklevel=4)

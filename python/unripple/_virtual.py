@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 import numpy as np
 import numpy.typing as npt
 
 from unripple import _unripple, _values
+from unripple._drive import Drive
 from unripple._errors import OptionError
 from unripple._surface import Surface
 
@@ -146,14 +147,14 @@ class VirtualSurface:
         """Time that has passed since then, in s."""
         return self._raw.time_s
 
-    def exchange(self, drive: npt.ArrayLike) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+    def exchange(self, drive: npt.ArrayLike | Drive) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
         """Play a drive, and return what is recorded meanwhile.
 
         Parameters
         ----------
         drive
             Samples of shape (actuators, n) in the actuators' units, n a multiple of the block; it is played as it is, also beyond the
-            surface's limit. float32 in C order is taken without conversion.
+            surface's limit. float32 in C order is taken without conversion. A :class:`Drive` is followed by silence to whole blocks.
 
         Returns
         -------
@@ -178,7 +179,12 @@ class VirtualSurface:
         >>> bool(np.abs(sensors).max() > 0)
         True
         """
+        if isinstance(drive, Drive):
+            drive = np.pad(drive.samples, ((0, 0), (0, -drive.samples.shape[1] % self.block)))
         return self._raw.exchange(drive)
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a simulated surface cannot be pickled: keep its surface, and what was done to it")
 
     def touch(self, finger: int, at_mm: _types.Row, contact: Mapping[str, float] | None = None) -> None:
         """Put a finger down, whose load comes within 8 ms from the next block on.
