@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -151,3 +152,22 @@ def test_calls_of_several_threads_do_not_mix(film: ur.Surface) -> None:
     for thread in threads:
         thread.join()
     assert found == wanted
+
+
+def test_a_forked_process_is_told_what_it_lacks(film: ur.Surface) -> None:
+    film.design()
+    reader, writer = os.pipe()
+    child = os.fork()
+    if child == 0:
+        # Nothing of the test's own is to run here.
+        try:
+            film.design()
+            said = "done"
+        except ur.WorkError as error:
+            said = str(error)
+        os.write(writer, said.encode())
+        os._exit(0)
+    os.close(writer)
+    with os.fdopen(reader, encoding="utf-8") as told:
+        assert "`spawn`" in told.read()
+    assert os.waitpid(child, 0)[1] == 0
