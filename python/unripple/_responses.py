@@ -82,6 +82,11 @@ class Responses(Focusing):
         return responses
 
     @classmethod
+    def _of_known(cls, surface: Surface, raw: _unripple.Responses) -> Responses:
+        """Return the responses of a surface that have been computed."""
+        return cls._of(raw, (_of_surface_again, (surface, None, [])), surface)
+
+    @classmethod
     def _of_surface(
         cls, surface: Surface, max_hz: object, fingers_m: list[list[float]], options: Mapping[str, Any]
     ) -> Responses:

@@ -77,11 +77,12 @@ class Surface(Reporting, Focusing):
     (2, 2)
     """
 
-    __slots__ = ("_ask", "_raw", "_responses")
+    __slots__ = ("__weakref__", "_ask", "_raw", "_responses")
 
     _raw: _unripple.Surface
     _ask: str | dict[str, Any] | None
-    _responses: Responses | None
+    # What the library computed: responses as Python has them know the surface, and the two would keep each other alive.
+    _responses: _unripple.Responses | None
 
     def __init__(self, source: str | os.PathLike[str] | None = None, /, **keys: object) -> None:
         if source is None:
@@ -227,7 +228,8 @@ class Surface(Reporting, Focusing):
     def _source(self, options: dict[str, Any]) -> Responses:
         changed = options.pop("set", None)
         surface = self if changed is None else self.with_(**_keys.read_all(changed))
-        return surface.responses()
+        calls: dict[str, Any] = {name: options[name] for name in _options.OF_CALLS if options.get(name) is not None}
+        return surface.responses(**calls)
 
     def responses(
         self,
@@ -263,10 +265,10 @@ class Surface(Reporting, Focusing):
         fingers_m = _values.places("fingers_mm", fingers_mm)
         plain = max_hz is None and not fingers_m
         if plain and self._responses is not None:
-            return self._responses
+            return Responses._of_known(self, self._responses)
         found = Responses._of_surface(self, max_hz, fingers_m, options)
         if plain:
-            self._responses = found
+            self._responses = found._raw
         return found
 
     def virtual(self, block: int = 64, **options: Any) -> VirtualSurface:
