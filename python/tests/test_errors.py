@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import pickle
 import warnings
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -202,6 +204,7 @@ def test_metres_in_place_of_mm_are_warned_of() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         film.focus([(62, 90)], window_ms=20, method="time_reversal")
+        assert len(film.focus(zip([62, 90], [90, 40], strict=True), window_ms=20).report.targets) == 2
 
 
 def test_points_that_are_the_same_are_refused() -> None:
@@ -228,3 +231,24 @@ def test_a_drive_is_played_to_whole_blocks() -> None:
     rig = film.virtual(block=64)
     sensors, probe = rig.exchange(ur.Drive(np.ones((8, 100)), rate_hz=48000, names=film.names))
     assert sensors.shape == (8, 128) and probe.shape == (128,)
+
+
+def test_a_drive_of_another_rate_or_surface_is_not_played() -> None:
+    film = ur.Surface("hudin-2012", band_hz=[0, 300])
+    rig, samples = film.virtual(block=64), np.ones((8, 64))
+    with pytest.raises(ur.AskError, match="rate_hz"):
+        rig.exchange(ur.Drive(samples, rate_hz=8000, names=film.names))
+    with pytest.raises(ur.AskError, match="names"):
+        rig.exchange(ur.Drive(samples, rate_hz=48000, names=[f"b{i}" for i in range(8)]))
+
+
+def test_surfaces_that_nobody_has_any_more_are_gone() -> None:
+    film = ur.Surface("hudin-2012", band_hz=[0, 300])
+    film.focus([(62, 90)], window_ms=20)
+    gone = weakref.ref(film)
+    gc.disable()
+    try:
+        del film
+        assert gone() is None
+    finally:
+        gc.enable()

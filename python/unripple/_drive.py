@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from unripple import _unripple, _values
-from unripple._errors import OptionError
+from unripple._errors import AskError, OptionError
 from unripple._report import Report
 
 if TYPE_CHECKING:
@@ -290,6 +290,16 @@ def _again(
     drive = Drive(samples, rate_hz=rate_hz, names=names)
     drive._report, drive._figures = report, figures
     return drive
+
+
+def refuse_other(drive: Drive, rate_hz: float, names: list[str]) -> None:
+    """Refuse a drive of another sample rate (Hz), or for other actuators."""
+    for field, expected, found in (
+        ("rate_hz", rate_hz, drive.rate_hz),
+        ("names", list(names), list(drive.names)),
+    ):
+        if expected != found:
+            raise AskError(field=f"drive.{field}", expected=str(expected), found=str(found))
 
 
 def channel_names(names: object, count: int) -> list[str]:

@@ -27,7 +27,7 @@ class Focusing:
 
     def _computed(self, command: str, options: dict[str, Any]) -> Drive:
         source = self._source(options)
-        _values.warn_of_metres("targets", options.get("targets"), source.surface.extent_m)
+        _values.warn_of_metres("targets", options.get("targets", options.get("at")), source.surface.extent_m)
         return source._focused(command, options)
 
     def focus(

@@ -104,7 +104,7 @@ class Player:
         self._raw = _unripple.Player(
             played._raw,
             _values.path("effect", effect),
-            _values.text("method", method),
+            _values.text("method", method).replace("_", "-"),
             None if window_ms is None else _values.milli("window_ms", window_ms),
             _values.count("block", block),
             _values.flag("full_limit", full_limit),

@@ -205,8 +205,11 @@ def plain(name: str, value: object) -> Any:
 
 def warn_of_metres(name: str, points: object, extent_m: tuple[float, float]) -> None:
     """Warn if all points among targets, in mm, are so near to the corner of a surface that they seem to be in metres."""
+    if not isinstance(points, (list, tuple, np.ndarray)):
+        # What can be read once alone is left to whoever takes it.
+        return
     try:
-        places = [(float(point[0]), float(point[1])) for point in points if not isinstance(point, (str, Mapping))]  # type: ignore[attr-defined]
+        places = [(float(point[0]), float(point[1])) for point in points if not isinstance(point, (str, Mapping))]
     except (TypeError, ValueError, LookupError):
         # What they are is said by whoever takes them.
         return

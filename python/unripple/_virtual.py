@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from unripple import _unripple, _values
-from unripple._drive import Drive
+from unripple._drive import Drive, refuse_other
 from unripple._errors import OptionError
 from unripple._surface import Surface
 
@@ -180,6 +180,7 @@ class VirtualSurface:
         True
         """
         if isinstance(drive, Drive):
+            refuse_other(drive, self.rate_hz, self.names)
             drive = np.pad(drive.samples, ((0, 0), (0, -drive.samples.shape[1] % self.block)))
         return self._raw.exchange(drive)
 
