@@ -231,6 +231,9 @@ def test_a_drive_is_played_to_whole_blocks() -> None:
     rig = film.virtual(block=64)
     sensors, probe = rig.exchange(ur.Drive(np.ones((8, 100)), rate_hz=48000, names=film.names))
     assert sensors.shape == (8, 128) and probe.shape == (128,)
+    # Lists and whole numbers are converted.
+    assert rig.exchange([[0] * 64] * 8)[1].shape == (64,)
+    assert rig.exchange(np.zeros((8, 64), int))[1].shape == (64,)
 
 
 def test_a_drive_of_another_rate_or_surface_is_not_played() -> None:

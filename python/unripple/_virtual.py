@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from unripple import _unripple, _values
-from unripple._drive import Drive, refuse_other
+from unripple._drive import Drive, floats, refuse_other
 from unripple._errors import OptionError
 from unripple._surface import Surface
 
@@ -182,6 +182,8 @@ class VirtualSurface:
         if isinstance(drive, Drive):
             refuse_other(drive, self.rate_hz, self.names)
             drive = np.pad(drive.samples, ((0, 0), (0, -drive.samples.shape[1] % self.block)))
+        elif getattr(drive, "dtype", None) not in (np.float32, np.float64):
+            drive = floats("drive", drive, "actuators", "samples")
         return self._raw.exchange(drive)
 
     def __reduce__(self) -> NoReturn:
