@@ -151,10 +151,9 @@ class Responses(Focusing):
         ('sampled', (3, 8, 2401))
         """
         values = floats("h", h, "points", "actuators", "samples")
-        _refuse_repeated("points_mm", points_mm)
         known = {
             "rate_hz": _values.number("rate_hz", rate_hz),
-            "points_m": _metres("points_mm", points_mm),
+            "points_m": _distinct("points_mm", points_mm),
             "names": channel_names(names, values.shape[1]),
             "actuators_m": _metres("actuators_mm", actuators_mm),
             "scaled": _values.flag("scaled", scaled),
@@ -364,13 +363,15 @@ def _metres(name: str, places_mm: object) -> npt.NDArray[np.float64]:
     return np.array(_values.places(name, places_mm), dtype=np.float64).reshape(-1, 2)
 
 
-def _refuse_repeated(name: str, places_mm: object) -> None:
-    """Refuse places of which two are the same: their responses would be measured twice, or are those of other places."""
+def _distinct(name: str, places_mm: object) -> npt.NDArray[np.float64]:
+    """Return places as `_metres` does; refuse two that are the same, whose responses would be those of other places."""
+    places = _metres(name, places_mm)
     seen: dict[tuple[float, ...], int] = {}
-    for index, place in enumerate(_values.places(name, places_mm)):
+    for index, place in enumerate(places.tolist()):
         before = seen.setdefault(tuple(place), index)
         if before != index:
             raise AskError(field=name, expected="places that differ", found=f"the same at {before} and {index}")
+    return places
 
 
 def _of_surface_again(surface: Surface, max_hz: float | None, fingers_m: list[list[float]]) -> Responses:
