@@ -65,27 +65,47 @@ pub(crate) fn points(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<Point
     }
 }
 
-/// A read-only array of these values, given in C order, which are moved into it.
+/// An array of these values, given in C order, which are moved into it: the caller's own, who may write to it.
 ///
 /// # Errors
 /// `WorkError` if they are not as many as the shape holds.
-pub(crate) fn moved<'py, T: Element, D: Dimension>(
+pub(crate) fn owned<'py, T: Element, D: Dimension>(
     py: Python<'py>,
     values: Vec<T>,
     shape: impl Into<StrideShape<D>>,
 ) -> PyResult<Bound<'py, PyArray<T, D>>> {
     let array = Array::from_shape_vec(shape, values).map_err(|error| raised(py, TaskError::work(error)))?;
-    sealed(PyArray::from_owned_array(py, array))
+    Ok(PyArray::from_owned_array(py, array))
 }
 
-/// Places (m) as a read-only array [place, 2] of x and y.
-pub(crate) fn places<'py>(
+/// The same, read-only.
+///
+/// # Errors
+/// Those of [`owned`].
+pub(crate) fn moved<'py, T: Element, D: Dimension>(
+    py: Python<'py>,
+    values: Vec<T>,
+    shape: impl Into<StrideShape<D>>,
+) -> PyResult<Bound<'py, PyArray<T, D>>> {
+    sealed(owned(py, values, shape)?)
+}
+
+/// Places (m) as an array [place, 2] of x and y: the caller's own, who may write to it.
+pub(crate) fn coordinates<'py>(
     py: Python<'py>,
     places: impl IntoIterator<Item = Point>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let values: Vec<f64> = places.into_iter().flat_map(|place| [place.x, place.y]).collect();
     let count = values.len() / 2;
-    moved(py, values, [count, 2])
+    owned(py, values, [count, 2])
+}
+
+/// The same, read-only.
+pub(crate) fn places<'py>(
+    py: Python<'py>,
+    places: impl IntoIterator<Item = Point>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    sealed(coordinates(py, places)?)
 }
 
 /// A read-only array that shares the memory of values, in C order, that `owner` holds; it keeps the owner alive.

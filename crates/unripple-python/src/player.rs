@@ -1,11 +1,12 @@
 //! Live play that Python steps block by block, with touches that Python pushes.
 
 use crate::arguments::{finite, place, whole};
+use crate::arrays::owned;
 use crate::commands::{Done, asked};
 use crate::error::{ask, raised};
 use crate::progress::{brief, work};
 use crate::surface::Surface;
-use crate::virtual_surface::{Heard, TURN, array};
+use crate::virtual_surface::{Heard, TURN};
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -168,7 +169,7 @@ impl Player {
             (session.heard, session.samples) = (heard, samples);
             Ok(())
         })?;
-        array(py, drive, actuators, samples)
+        owned(py, drive, [actuators, samples])
     }
 
     /// What the simulated surface answered to the blocks of the last step(): the signals of the sensors, float32 [actuator, sample] in the
@@ -179,7 +180,7 @@ impl Player {
             Ok((session.heard.clone(), session.samples))
         })?;
         let probe = sensors.split_off(self.names.len() * samples);
-        Ok((array(py, sensors, self.names.len(), samples)?, probe.into_pyarray(py)))
+        Ok((owned(py, sensors, [self.names.len(), samples])?, probe.into_pyarray(py)))
     }
 
     /// What fingers felt of the simulated surface, at the last of the looks that are made every 0.2 s of played time: for each touch its

@@ -1,13 +1,12 @@
 //! A surface as Python holds it: read once, without faults, and immutable.
 
+use crate::arrays::coordinates;
 use crate::error::{input, of_surface, raised};
 use crate::progress::brief;
-use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray2};
+use numpy::PyArray2;
 use pyo3::prelude::*;
 use std::sync::Arc;
 use unripple::act::unit;
-use unripple::core::Point;
 use unripple_store::{BUILTINS, Library, to_toml};
 use unripple_tasks::{SurfaceAsk, TaskError};
 
@@ -85,9 +84,8 @@ impl Surface {
 
     /// The places of the actuators, in metres: float64 [actuator, 2].
     #[getter]
-    fn actuators_m<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        let places: Vec<Point> = self.inner.actuators.iter().map(|actuator| actuator.at).collect();
-        array(py, &places)
+    fn actuators_m<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        coordinates(py, self.inner.actuators.iter().map(|actuator| actuator.at))
     }
 
     /// Lowest and highest frequency of the drive, in Hz.
@@ -117,10 +115,10 @@ impl Surface {
 
     /// The outer boundary, then the holes, as closed polygons for drawing, in metres: a list of float64 [n, 2].
     #[getter]
-    fn outline_m<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyArray2<f64>>> {
+    fn outline_m<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
         let outline = &self.inner.outline;
         let rims = std::iter::once(outline.rim(TURN)).chain(outline.hole_rims(TURN));
-        rims.map(|rim| array(py, &rim)).collect()
+        rims.map(|rim| coordinates(py, rim)).collect()
     }
 }
 
@@ -144,10 +142,4 @@ fn kept(ask: SurfaceAsk, surface: &unripple::core::Surface) -> SurfaceAsk {
         SurfaceAsk::Text { name, .. } => name,
     };
     SurfaceAsk::Text { toml: to_toml(surface), name }
-}
-
-/// Places in metres as an array [place, 2] of x and y.
-fn array<'py>(py: Python<'py>, places: &[Point]) -> Bound<'py, PyArray2<f64>> {
-    let coordinates = places.iter().map(|place| [place.x, place.y]).collect::<Vec<_>>();
-    Array2::from(coordinates).into_pyarray(py)
 }

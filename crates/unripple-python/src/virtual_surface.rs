@@ -1,11 +1,10 @@
 //! A simulated surface that Python steps block by block.
 
 use crate::arguments::{finite, on_surface, place, positive, shown, whole};
-use crate::arrays;
-use crate::error::{ask, raised};
+use crate::arrays::{self, owned};
+use crate::error::ask;
 use crate::progress::{brief, work};
 use crate::surface::Surface;
-use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -142,7 +141,7 @@ impl VirtualSurface {
                 py.check_signals()?;
             }
         }
-        Ok((array(py, planes, self.names.len(), samples)?, probe.into_pyarray(py)))
+        Ok((owned(py, planes, [self.names.len(), samples])?, probe.into_pyarray(py)))
     }
 
     /// Puts a finger down at a place, x and y in metres, under a number of the caller's. `contact` is its mass (kg), damping (N·s/m),
@@ -234,7 +233,7 @@ impl VirtualSurface {
     fn watched<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let traces = brief(py, || Ok(self.handle.watched()))?;
         let samples = traces.first().map_or(0, Vec::len);
-        array(py, traces.concat(), traces.len(), samples)
+        owned(py, traces.concat(), [traces.len(), samples])
     }
 
     /// Puts the surface at rest as it was made, at time 0: without taps, fingers and watched places, the probe at its first place. The noise
@@ -339,15 +338,4 @@ fn open(surface: &unripple::core::Surface, asked: &Asked) -> Result<Virtual, Tas
 /// A finger's number.
 fn number(id: &Bound<'_, PyAny>) -> PyResult<u64> {
     whole(id, "id", 0..=u64::MAX)
-}
-
-/// An array of samples, row after row.
-pub(crate) fn array(
-    py: Python<'_>,
-    samples: Vec<f32>,
-    rows: usize,
-    columns: usize,
-) -> PyResult<Bound<'_, PyArray2<f32>>> {
-    let array = Array2::from_shape_vec((rows, columns), samples);
-    Ok(array.map_err(|error| raised(py, TaskError::work(error)))?.into_pyarray(py))
 }
