@@ -115,12 +115,6 @@ pub(crate) fn version() -> &'static str {
     env!("CARGO_PKG_VERSION")
 }
 
-/// The commit that the program was built from; None if that is unknown.
-#[pyfunction]
-pub(crate) fn commit() -> Option<&'static str> {
-    Some(unripple_cli::COMMIT).filter(|commit| !commit.is_empty())
-}
-
 /// The names of the built-in surfaces.
 #[pyfunction]
 pub(crate) fn builtin() -> Vec<&'static str> {

@@ -24,7 +24,7 @@ mod _unripple {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::commands::{Done, builtin, command_line, commit, default_ask, effects, names, run, version};
+    use crate::commands::{Done, builtin, command_line, default_ask, effects, names, run, version};
     #[pymodule_export]
     use crate::drive::{Drive, read_wav};
     #[pymodule_export]

@@ -71,6 +71,7 @@ pub use apart::{Lane, apart};
 pub use device::{DeviceAsk, DeviceKind};
 pub use error::TaskError;
 pub use names::{interpolation, method};
+pub use numbers::above_zero;
 pub use place::{Place, point};
 pub use progress::{Progress, Silent, go_on};
 pub use record::Record;

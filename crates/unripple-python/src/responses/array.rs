@@ -11,7 +11,7 @@ use unripple::physics::Medium;
 use unripple_store::{parse_surface, to_toml};
 use unripple_tasks::source::Stored;
 use unripple_tasks::target::{LevelAsk, targets};
-use unripple_tasks::{Source, TaskError, focus};
+use unripple_tasks::{Source, TaskError, above_zero, focus};
 
 /// Places this near to each other, in metres, are the same, as they are to the tasks. Far below any wavelength.
 const SAME: f64 = 1e-6;
@@ -94,7 +94,7 @@ impl Given {
                 return Err(TaskError::Input(message));
             }
         }
-        above_zero("rate_hz", "Hz", self.rate)
+        above_zero(self.rate, "rate_hz", "Hz").map(drop)
     }
 
     /// The band, in Hz: as given, that of the surface, or nearly all that samples tell apart.
@@ -112,7 +112,7 @@ impl Given {
     /// The shortest wavelength (m) of a band up to `top` (Hz): as given, or that of the surface's waves.
     fn lambda_min(&self, top: f64) -> Result<f64, TaskError> {
         match (self.lambda_min, &self.surface) {
-            (Some(given), _) => above_zero("lambda_min_m", "m", given).map(|()| given),
+            (Some(given), _) => above_zero(given, "lambda_min_m", "m"),
             (None, Some(surface)) => Ok(Medium::of(&surface.sheet).lambda_min(top)),
             (None, None) => {
                 let expected = "the shortest wavelength of the band, or a surface that it follows from";
@@ -187,13 +187,6 @@ impl Given {
         };
         // Through its file, which names, places and rates have to fit into.
         parse_surface(&to_toml(&surface), "array").map_err(|faults| TaskError::Faults(Box::new(faults)))
-    }
-}
-
-fn above_zero(field: &'static str, unit: &str, value: f64) -> Result<(), TaskError> {
-    match value.is_finite() && value > 0.0 {
-        true => Ok(()),
-        false => Err(TaskError::ask(field, format!("a number above 0 {unit}"), value)),
     }
 }
 

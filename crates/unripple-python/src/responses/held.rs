@@ -13,14 +13,11 @@ use unripple_store::Library;
 use unripple_tasks::field::DriveAsk;
 use unripple_tasks::figures::Columns;
 use unripple_tasks::record::Request;
+use unripple_tasks::respond::MOST_VALUES;
 use unripple_tasks::{
     Place, Progress, Record, Solved, Source, SurfaceAsk, TaskError, between, field, fingers, focus, go_on,
     point, source, stroke, waveform,
 };
-
-/// Most samples of a response times modes, whose tables take up to 6 GiB, and most samples of all responses together, 2 GiB of them. Doubled,
-/// twice the memory.
-const MOST_VALUES: usize = 1 << 29;
 
 /// Responses, and what they are of.
 pub(super) struct Held {

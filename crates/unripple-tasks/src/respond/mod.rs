@@ -6,4 +6,4 @@ mod run;
 
 pub use ask::Ask;
 pub use report::Report;
-pub use run::run;
+pub use run::{MOST_VALUES, run};
