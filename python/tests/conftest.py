@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from pathlib import Path
 
 import matplotlib
@@ -11,6 +12,12 @@ import pytest
 import unripple as ur
 
 matplotlib.use("Agg")
+
+
+def pytest_configure() -> None:
+    """Let Ctrl+C through: a shell script starts what it runs in the background with that signal ignored, and so would be what tests start."""
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(autouse=True)
