@@ -113,7 +113,7 @@ pub(super) fn gather<S: Simd>(
     let whole = pairs.len() * columns;
     for (tiles, to) in tiles.chunks_exact(2 * columns).zip(pairs.chunks_exact_mut(2)) {
         let (one, other) = tiles.split_at(columns);
-        let [mut sum, mut second] = [begun::<S>(simd, &to[0]), begun::<S>(simd, &to[1])];
+        let (mut sum, mut second) = (begun::<S>(simd, &to[0]), begun::<S>(simd, &to[1]));
         for ((one, other), amount) in one[first..].iter().zip(&other[first..]).zip(amounts) {
             let amount = simd.splat_f64s(*amount);
             weigh(simd, one, amount, &mut sum);
@@ -144,7 +144,7 @@ pub(super) fn gather_both<S: Simd>(
     let (plain, rest) = amounts[0].split_at(first);
     for (tile, (to, second)) in tiles.chunks_exact(columns).zip(to.iter_mut().zip(second)) {
         let (struck, loaded) = tile.split_at(first);
-        let [mut sum, mut other] = [begun::<S>(simd, to), begun::<S>(simd, second)];
+        let (mut sum, mut other) = (begun::<S>(simd, to), begun::<S>(simd, second));
         for (weights, amount) in struck.iter().zip(plain) {
             weigh(simd, weights, simd.splat_f64s(*amount), &mut sum);
         }
@@ -162,17 +162,25 @@ pub(super) fn gather_both<S: Simd>(
 }
 
 /// Loads sixteen sums into registers.
+#[expect(clippy::manual_memcpy, reason = "a copy of slices may be left a call that goes through memory")]
 #[inline(always)]
 fn begun<S: Simd>(simd: S, from: &Lanes) -> [S::f64s; LANES] {
     let mut sums = [simd.splat_f64s(0.0); LANES];
-    sums[..vectors::<S>()].copy_from_slice(S::as_simd_f64s(from).0);
+    let from = S::as_simd_f64s(from).0;
+    for i in 0..vectors::<S>() {
+        sums[i] = from[i];
+    }
     sums
 }
 
 /// Stores sixteen sums from registers.
+#[expect(clippy::manual_memcpy, reason = "a copy of slices may be left a call that goes through memory")]
 #[inline(always)]
 fn keep<S: Simd>(sums: &[S::f64s; LANES], to: &mut Lanes) {
-    S::as_mut_simd_f64s(to).0.copy_from_slice(&sums[..vectors::<S>()]);
+    let to = S::as_mut_simd_f64s(to).0;
+    for i in 0..vectors::<S>() {
+        to[i] = sums[i];
+    }
 }
 
 #[inline(always)]
@@ -196,7 +204,7 @@ pub(super) fn accumulate<S: Simd>(
     let mut pairs = sums.chunks_exact_mut(2);
     let mut column = first;
     for to in &mut pairs {
-        let [mut sum, mut second] = [begun::<S>(simd, &to[0]), begun::<S>(simd, &to[1])];
+        let (mut sum, mut second) = (begun::<S>(simd, &to[0]), begun::<S>(simd, &to[1]));
         for (tile, x) in tiles.chunks_exact(columns).zip(x) {
             if let [one, other] = &tile[column..column + 2] {
                 let (one, other) = (S::as_simd_f64s(one).0, S::as_simd_f64s(other).0);
@@ -236,23 +244,24 @@ pub(super) fn accumulate_both<S: Simd>(
     let (mut ones, mut others) = (firsts.chunks_exact_mut(2), seconds.chunks_exact_mut(2));
     let mut column = first;
     for (to, too) in (&mut ones).zip(&mut others) {
-        let mut sums = [&to[0], &to[1], &too[0], &too[1]].map(|sum| begun::<S>(simd, sum));
+        let (mut sum, mut second) = (begun::<S>(simd, &to[0]), begun::<S>(simd, &to[1]));
+        let (mut third, mut fourth) = (begun::<S>(simd, &too[0]), begun::<S>(simd, &too[1]));
         for (tile, (x, y)) in tiles.chunks_exact(columns).zip(x[0].iter().zip(x[1])) {
             if let [one, other] = &tile[column..column + 2] {
                 let (one, other) = (S::as_simd_f64s(one).0, S::as_simd_f64s(other).0);
                 let (x, y) = (S::as_simd_f64s(x).0, S::as_simd_f64s(y).0);
                 for i in 0..vectors::<S>() {
-                    sums[0][i] = simd.mul_add_e_f64s(one[i], x[i], sums[0][i]);
-                    sums[1][i] = simd.mul_add_e_f64s(other[i], x[i], sums[1][i]);
-                    sums[2][i] = simd.mul_add_e_f64s(one[i], y[i], sums[2][i]);
-                    sums[3][i] = simd.mul_add_e_f64s(other[i], y[i], sums[3][i]);
+                    sum[i] = simd.mul_add_e_f64s(one[i], x[i], sum[i]);
+                    second[i] = simd.mul_add_e_f64s(other[i], x[i], second[i]);
+                    third[i] = simd.mul_add_e_f64s(one[i], y[i], third[i]);
+                    fourth[i] = simd.mul_add_e_f64s(other[i], y[i], fourth[i]);
                 }
             }
         }
-        keep::<S>(&sums[0], &mut to[0]);
-        keep::<S>(&sums[1], &mut to[1]);
-        keep::<S>(&sums[2], &mut too[0]);
-        keep::<S>(&sums[3], &mut too[1]);
+        keep::<S>(&sum, &mut to[0]);
+        keep::<S>(&second, &mut to[1]);
+        keep::<S>(&third, &mut too[0]);
+        keep::<S>(&fourth, &mut too[1]);
         column += 2;
     }
     accumulate(simd, tiles, [columns, column], x[0], ones.into_remainder());

@@ -83,7 +83,7 @@ impl Small {
             let (pairs, last) = cells[..x.len()].as_chunks::<2>();
             let (amounts, end) = x.as_chunks::<2>();
             for (cells, x) in pairs.iter().zip(amounts) {
-                let x = x.map(|x| simd.splat_f64s(x));
+                let x = [simd.splat_f64s(x[0]), simd.splat_f64s(x[1])];
                 for i in 0..n {
                     even[i] = simd.mul_add_e_f64s(get::<S>(&cells[0], i), x[0], even[i]);
                     odd[i] = simd.mul_add_e_f64s(get::<S>(&cells[1], i), x[1], odd[i]);
