@@ -124,25 +124,34 @@ impl<'a> Pairs<'a> {
     /// Sum of the cross-spectra of all pairs, each of power 1.
     fn cross(&self, change: f64) -> Vec<Complex<f64>> {
         let mut sum: Vec<Complex<f64>> = Vec::new();
+        let moves = self.moves(change);
         for pair in 0..self.known.len() {
-            let own = self.crossed(pair, change);
+            let own = self.crossed(pair, &moves);
             sum.resize(own.len(), Complex::default());
             sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
         sum
     }
 
+    /// Where each line of the band comes from under a change, the same for all pairs: the frequency (Hz) and its slope.
+    fn moves(&self, change: f64) -> Vec<[f64; 2]> {
+        let Some(known) = self.known.first() else { return Vec::new() };
+        let [first, end] = known.within(self.band);
+        (first..end).map(|line| self.law.unchanged(known.hz(line), change)).collect()
+    }
+
     /// Cross-spectrum of one pair, of power 1.
-    fn crossed(&self, pair: usize, change: f64) -> Vec<Complex<f64>> {
-        let moved = normed(self.known[pair].lines(self.band, |hz| self.law.unchanged(hz, change)));
+    fn crossed(&self, pair: usize, moves: &[[f64; 2]]) -> Vec<Complex<f64>> {
+        let known = &self.known[pair];
+        let moved = normed(known.lines_from(known.within(self.band)[0], moves.iter().copied()));
         moved.iter().zip(&self.found[pair]).map(|(known, found)| found * known.conj()).collect()
     }
 
     /// Which pairs, in their order without silent ones, have a correlation below `least` (-1 to 1) once the common delay and
     /// change are taken out.
     pub fn strange(&self, apart: &Apart, least: f64) -> Vec<bool> {
-        let count = self.known.len() as f64;
-        let likeness = |pair: usize| count * self.read(&self.crossed(pair, apart.change), apart.late);
+        let (count, moves) = (self.known.len() as f64, self.moves(apart.change));
+        let likeness = |pair: usize| count * self.read(&self.crossed(pair, &moves), apart.late);
         (0..self.known.len()).map(|pair| likeness(pair) < least).collect()
     }
 

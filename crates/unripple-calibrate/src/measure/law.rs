@@ -32,7 +32,8 @@ impl Law {
 
     fn ratio(&self, hz: f64, change: f64) -> f64 {
         let place = (hz / self.step).clamp(0.0, (POINTS - 1) as f64);
-        let (left, part) = (place as usize, place.fract());
+        let left = place as usize;
+        let part = place - left as f64;
         let right = (left + 1).min(POINTS - 1);
         let follows = self.follows[left] * (1.0 - part) + self.follows[right] * part;
         (1.0 + change * follows).max(0.25).sqrt()

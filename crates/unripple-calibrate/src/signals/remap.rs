@@ -81,9 +81,14 @@ impl Remap {
     /// frequency before (Hz), and the derivative of the latter by the former.
     pub fn lines(&self, band: [f64; 2], from: impl Fn(f64) -> [f64; 2]) -> Vec<Complex<f64>> {
         let [first, end] = self.within(band);
+        self.lines_from(first, (first..end).map(|line| from(self.hz(line))))
+    }
+
+    /// Spectrum of the moved signal at the lines from the `first` on, given for each the frequency before moving (Hz) and its derivative by
+    /// that after moving: for several signals of one length that move alike.
+    pub fn lines_from(&self, first: usize, moves: impl IntoIterator<Item = [f64; 2]>) -> Vec<Complex<f64>> {
         let step = self.rate / self.plan.size() as f64;
-        let value = |line: usize| {
-            let [hz, slope] = from(self.hz(line));
+        let value = |(line, [hz, slope]): (usize, [f64; 2])| {
             let at = hz / step;
             if !(at >= 0.0 && at <= (self.lines.len() - 1) as f64) {
                 return Complex::default();
@@ -92,20 +97,34 @@ impl Remap {
             let back = (self.centre - self.origin) * at + self.origin * line as f64;
             self.between(at) * Complex::from_polar(slope, -TAU * back / self.plan.size() as f64)
         };
-        (first..end).map(value).collect()
+        (first..).zip(moves).map(value).collect()
     }
 
     /// The spectrum of the centred signal between its lines.
     fn between(&self, at: f64) -> Complex<f64> {
         let (whole, last) = (at.floor() as i64, self.lines.len() as i64 - 1);
-        let half = HALF as i64;
+        let first = whole + 1 - HALF as i64;
+        let kernel: &[f64] = &KERNEL;
         let weight = |k: i64| {
             let place = (at - k as f64).abs() * FINE as f64;
-            let (left, part) = (place as usize, place.fract());
-            let read = |i: usize| KERNEL.get(i).copied().unwrap_or(0.0);
+            let left = place as usize;
+            let part = place - left as f64;
+            let read = |i: usize| kernel.get(i).copied().unwrap_or(0.0);
             read(left) * (1.0 - part) + read(left + 1) * part
         };
-        (whole + 1 - half..=whole + half).map(|k| self.line(k, last) * weight(k)).sum()
+        let lines = (first..).take(2 * HALF);
+        // Nearly everywhere all lines of the kernel are there, side by side: this is the innermost loop of every comparison of takes.
+        let inside = usize::try_from(first).ok().and_then(|first| self.lines.get(first..first + 2 * HALF));
+        let mut sum = Complex::default();
+        match inside {
+            Some(inside) => {
+                for (k, line) in lines.zip(inside) {
+                    sum += line * weight(k);
+                }
+            }
+            None => lines.for_each(|k| sum += self.line(k, last) * weight(k)),
+        }
+        sum
     }
 
     /// A line of the two-sided spectrum.
