@@ -165,7 +165,8 @@ fn a_table_calibrates() {
         ..MeasureOptions::default()
     };
     let mut wrong = Vec::new();
-    for (exciters, unknowns) in [(6, None), (if whole() { 16 } else { 6 }, Some(&unknowns))] {
+    let unknown = |exciters| (exciters, Some(&unknowns));
+    for (exciters, unknowns) in if whole() { vec![(6, None), unknown(16)] } else { vec![unknown(6)] } {
         let found = calibrate(&table(exciters), unknowns, &settings, ON_TABLE, 0.04);
         let name = format!("table, {exciters} exciters, {}", unknowns.map_or("as told", |_| "unknown"));
         told(&name, &found);
