@@ -1,6 +1,6 @@
 //! Impulse responses of a surface, by modal superposition (poles and residues).
 
-use crate::{Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
+use crate::{Footprint, Load, Loaded, Medium, Modes, Oscillations, PhysicsError, Transducer, transducers};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -98,6 +98,54 @@ pub fn responses_on(
     Asked::of(surface, options)?.responses(surface, modes)
 }
 
+/// The modes of the sheet with its actuators on it, up to `top_hz` (Hz), in order of ascending natural frequency: one pole for each, with
+/// the masses, springs, coils and electrical loads of the actuators. `None` if no actuator loads the sheet, whose modes are then those of
+/// [`Modes::solve`].
+///
+/// The frequency of a pole is |s|/2π of its complex frequency s, its decay rate -Re s. Frequencies of the sheet alone have the relative
+/// accuracy `accuracy`. The compliance of its modes above one and a half times `top_hz` enters as that of an infinite sheet.
+///
+/// # Errors
+/// Those of [`responses`]; [`PhysicsError::Range`] if `top_hz` is not above 0.
+///
+/// ```
+/// # use unripple_core::{ActuatorKind, CoilDrive};
+/// use unripple_physics::{design::papers_surface, loaded_modes};
+///
+/// let mut film = papers_surface();
+/// assert!(loaded_modes(&film, 400.0, 1e-4)?.is_none(), "ideal forces are no load");
+/// // Eight magnets of 0.1 g: the first mode falls.
+/// for actuator in &mut film.actuators {
+///     actuator.contact_radius = 2e-3;
+///     actuator.kind = ActuatorKind::MovingMagnet {
+///         force_constant: 0.2,
+///         resistance: 8.0,
+///         inductance: 0.0,
+///         moving_mass: 1e-4,
+///         driven_by: CoilDrive::Current,
+///     };
+/// }
+/// let modes = loaded_modes(&film, 400.0, 1e-4)?.unwrap_or_default();
+/// assert!(modes[0].omega < 0.999 * unripple_physics::Modes::solve(&film, 400.0, 1e-4)?.poles()[0].omega);
+/// # Ok::<(), unripple_physics::PhysicsError>(())
+/// ```
+pub fn loaded_modes(
+    surface: &Surface,
+    top_hz: f64,
+    accuracy: f64,
+) -> Result<Option<Vec<Pole>>, PhysicsError> {
+    let mut below = surface.clone();
+    below.emission.band = [0.0, top_hz];
+    // Nothing is sampled: the rate is only to be no reason to refuse.
+    below.emission.rate = below.emission.rate.max(3.0 * top_hz);
+    let asked = Asked::of(&below, &ResponseOptions { accuracy, ..ResponseOptions::default() })?;
+    if asked.bare() {
+        return Ok(None);
+    }
+    let modes = Arc::new(asked.modes(&below)?);
+    Ok(Some(asked.coupled(&below, modes)?.modes))
+}
+
 /// Highest frequency of the modes (in Hz) that a time-domain simulation ([`stepper`](crate::stepper)) needs to agree with
 /// [`responses`] up to `max_hz`. With loads on the sheet it is 1.5 times `max_hz`, since loads feel the compliance of modes above,
 /// but at most 0.45 of the sample rate (and at least `max_hz`).
@@ -160,6 +208,19 @@ impl Asked {
         Modes::solve(surface, top, self.accuracy)
     }
 
+    /// The oscillations of the sheet coupled to all loads, from the bottom of the band to `max_hz`.
+    fn coupled(&self, surface: &Surface, modes: Arc<Modes>) -> Result<Oscillations, PhysicsError> {
+        let poles = modes.poles().to_vec();
+        let (sheet, medium) = (&surface.sheet, Medium::of(&surface.sheet));
+        let loaded = Loaded::new(modes, &poles, &self.transducers, &self.fingers)?.with_rest(
+            medium,
+            medium.wavenumber(TAU * self.reach * self.max_hz),
+            sheet.thickness,
+            |omega, k| decay_rate(&sheet.decay, omega, medium.bending_share(k)),
+        )?;
+        loaded.oscillations(DYNAMIC * self.max_hz, [surface.emission.band[0], self.max_hz])
+    }
+
     /// The responses from modes, with all loads.
     fn responses(&self, surface: &Surface, modes: Arc<Modes>) -> Result<Responses, PhysicsError> {
         let emission = &surface.emission;
@@ -167,15 +228,7 @@ impl Asked {
         let (poles, input, shapes) = if self.bare() {
             unloaded(modes, &self.transducers, low)
         } else {
-            let poles = modes.poles().to_vec();
-            let (sheet, medium) = (&surface.sheet, Medium::of(&surface.sheet));
-            let loaded = Loaded::new(modes, &poles, &self.transducers, &self.fingers)?.with_rest(
-                medium,
-                medium.wavenumber(TAU * self.reach * self.max_hz),
-                sheet.thickness,
-                |omega, k| decay_rate(&sheet.decay, omega, medium.bending_share(k)),
-            )?;
-            let found = loaded.oscillations(DYNAMIC * self.max_hz, [low, self.max_hz])?;
+            let found = self.coupled(surface, modes)?;
             (found.poles, found.input, found.shapes)
         };
         let ports = surface.actuators.iter().map(|a| Port { name: a.name.clone(), at: a.at }).collect();

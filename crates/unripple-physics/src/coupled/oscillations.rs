@@ -39,6 +39,9 @@ pub struct Oscillations {
     pub input: Mat<f64>,
     /// Readout weights at any point, in 1/√kg.
     pub shapes: Arc<dyn Shapes>,
+    /// The modes of the loaded sheet, one pole for each, in order of ascending natural frequency. Motion that does not oscillate (real
+    /// poles) is none of them.
+    pub modes: Vec<Pole>,
 }
 
 /// One oscillation: its pole, the column of its readout, its input weights.
@@ -54,6 +57,8 @@ struct Parts {
     parts: Vec<Part>,
     /// Readouts, by modes.
     columns: Vec<Vec<f64>>,
+    /// Poles of the modes, one for each.
+    modes: Vec<Pole>,
 }
 
 impl Loaded {
@@ -149,6 +154,7 @@ impl Parts {
                 None => shape.weight(system.driven.row(t)),
             })
             .collect();
+        self.modes.push(shape.pole);
         self.parts.push(Part { pole: shape.pole, column: self.columns.len(), input });
         self.columns.push(column);
     }
@@ -159,6 +165,7 @@ impl Parts {
         column[mode] = 1.0;
         let pole = Pole::new(modes.omegas[mode], 0.5 * modes.damping[(mode, mode)]);
         let input = drives.forces.col(mode).iter().copied().collect();
+        self.modes.push(pole);
         self.parts.push(Part { pole, column: self.columns.len(), input });
         self.columns.push(column);
     }
@@ -173,6 +180,9 @@ impl Parts {
         } else {
             (s.norm(), (-s.re).max(0.0), 2.0)
         };
+        if !real {
+            self.modes.push(Pole::new(omega, sigma));
+        }
         // The phase for which the shape is as nearly real as possible.
         let turn = root.shape.iter().map(|d| d * d).sum::<c64>().sqrt();
         let turn = if turn.norm() > 0.0 { turn.conj() / turn.norm() } else { c64::new(1.0, 0.0) };
@@ -215,11 +225,13 @@ impl Parts {
             if c < kept { self.columns[c][m] } else { made[(m, c - kept)] }
         });
         self.parts.sort_by(|a, b| a.pole.omega.total_cmp(&b.pole.omega));
+        self.modes.sort_by(|a, b| a.omega.total_cmp(&b.omega));
         let columns = self.parts.iter().map(|part| part.column).collect();
         Oscillations {
             poles: self.parts.iter().map(|part| part.pole).collect(),
             input: Mat::from_fn(loaded.transducers.len(), self.parts.len(), |a, m| self.parts[m].input[a]),
             shapes: Arc::new(Mixed { base: loaded.shapes.clone(), mixing, columns }),
+            modes: self.modes,
         }
     }
 }

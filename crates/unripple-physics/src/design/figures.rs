@@ -2,7 +2,9 @@
 
 use super::ground::Ground;
 use super::tradeoffs::{actuator_counts, by_band, by_noise, by_rate, by_window};
-use super::{ByBand, ByNoise, ByRate, ByWindow, Deformation, Note, PaperFigures, Touch, Wave, closed};
+use super::{
+    ByBand, ByNoise, ByRate, ByWindow, Deformation, Note, PaperFigures, Touch, Wave, WithActuators, closed,
+};
 use super::{deformation::deformation, touch::own_touches, waves::waves};
 use std::f64::consts::TAU;
 
@@ -36,6 +38,9 @@ pub struct Design {
     pub mode_count_weyl: f64,
     /// Frequency of the first mode, in Hz; by Weyl's law where modes cannot be computed.
     pub first_mode_hz: f64,
+    /// Modes with the actuators on the sheet, of which the counts, the first mode and the decay time here know nothing; `None` if no
+    /// actuator loads the sheet, or if modes cannot be computed.
+    pub with_actuators: Option<WithActuators>,
     /// Heisenberg time, the mean number of modes per hertz n̄ = M/B, in seconds: the time needed to resolve neighbouring modes.
     pub heisenberg_time_s: f64,
     /// Heisenberg time at the top of the band, (2Sk - P)/2c_g, in seconds.
@@ -109,6 +114,7 @@ impl Design {
             mode_count_exact_reason: ground.counted.as_ref().err().cloned(),
             mode_count_weyl: ground.weyl_count(),
             first_mode_hz: ground.first_mode_hz,
+            with_actuators: None,
             heisenberg_time_s: cavity.modes() / (top - low),
             heisenberg_time_top_s: ground.density_at_top(),
             decay_time_s: cavity.decay_time(),

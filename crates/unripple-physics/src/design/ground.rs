@@ -9,7 +9,7 @@ use unripple_core::{OutOfRange, Surface};
 
 /// Relative accuracy of the frequencies that are counted: 0.3 Hz at 3 kHz, so that a count is wrong by one at
 /// most where modes are hertz apart. Smaller, counts take longer and hardly change.
-const ACCURACY: f64 = 1e-4;
+pub(super) const ACCURACY: f64 = 1e-4;
 
 /// The quantities from which all figures of a design are computed.
 pub(super) struct Ground<'a> {

@@ -24,6 +24,7 @@ mod touch;
 mod tradeoffs;
 mod waves;
 mod window;
+mod with_actuators;
 
 pub use cavity::Cavity;
 pub use deformation::{Bend, Deformation, deformation};
@@ -38,6 +39,7 @@ pub use touch::{Touch, table1};
 pub use tradeoffs::{ByBand, ByNoise, ByRate, ByWindow};
 pub use waves::Wave;
 pub use window::{Recommended, Windows, milliseconds};
+pub use with_actuators::WithActuators;
 
 use crate::{Modes, PhysicsError};
 use unripple_core::Surface;
@@ -80,6 +82,9 @@ pub fn design_by_law(surface: &Surface, reason: impl Into<String>) -> Result<Des
 
 fn on(ground: &ground::Ground<'_>) -> Result<Design, PhysicsError> {
     let mut design = Design::on(ground);
+    if ground.counted.is_ok() {
+        design.with_actuators = WithActuators::of(ground.surface)?;
+    }
     design.notes = notes::notes(ground, &design);
     design.paper = paper::is_papers_film(ground.surface).then(|| remarks::paper_figures(ground, &design));
     Ok(design)

@@ -73,13 +73,21 @@ fn modes(d: &Design, f: &mut Formatter<'_>) -> Result {
         (None, Some(reason)) => format!("unknown ({reason})"),
         (None, None) => "unknown".into(),
     };
-    line(f, "in the band, counted", &exact)?;
+    let loaded = d.with_actuators.as_ref();
+    // With the actuators first: that is the surface which will be played.
+    let both = |with: Option<String>, alone: String| match with {
+        Some(with) => format!("{with} with the actuators on it, {alone} of the sheet alone"),
+        None => alone,
+    };
+    line(f, "in the band, counted", &both(loaded.map(|l| l.mode_count.to_string()), exact))?;
     line(f, "in the band, by Weyl's law", &format!("{:.0}", d.mode_count_weyl))?;
-    line(f, "first", &format!("{:.1} Hz", d.first_mode_hz))?;
+    let hz = |hz: f64| format!("{hz:.1} Hz");
+    line(f, "first", &both(loaded.map(|l| hz(l.first_mode_hz)), hz(d.first_mode_hz)))?;
     let top = d.heisenberg_time_top_s * 1e3;
     let mean = d.heisenberg_time_s * 1e3;
     line(f, "Heisenberg time", &format!("{mean:.0} ms over the band, {top:.0} ms at its top"))?;
-    line(f, "decay time", &format!("{:.1} ms", d.decay_time_s * 1e3))
+    let ms = |s: f64| format!("{:.1} ms", s * 1e3);
+    line(f, "decay time", &both(loaded.map(|l| ms(l.decay_time_s)), ms(d.decay_time_s)))
 }
 
 fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {

@@ -11,6 +11,7 @@ mod design_oracle;
 mod exciter_common;
 mod exciter_oracle;
 mod finger_oracle;
+mod loaded_modes_oracle;
 #[path = "../../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 mod modes_property;

@@ -1,12 +1,14 @@
 //! Report of the task `modes`.
 
 use serde::Serialize;
+use std::f64::consts::TAU;
 use std::fmt::Write;
+use unripple::core::Pole;
 
 /// Modes listed for people; JSON has all.
 const LISTED: usize = 40;
 
-/// The modes of a surface, lowest first.
+/// The modes of a surface, lowest first: of the sheet alone, and of the sheet with its actuators on it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// The surface's own name.
@@ -23,20 +25,80 @@ pub struct Report {
     pub bending_shares: Vec<f64>,
     /// Largest relative error of the frequencies, estimated.
     pub relative_error: f64,
+    /// The modes with the masses, springs, coils and electrical loads of the actuators; `None` if no actuator loads the sheet.
+    pub loaded: Option<Loaded>,
+}
+
+/// The modes of a sheet with its actuators on it, lowest first.
+#[derive(Clone, Debug, Serialize)]
+pub struct Loaded {
+    /// Number of modes.
+    pub count: usize,
+    /// Natural frequency of each mode, in Hz.
+    pub frequencies_hz: Vec<f64>,
+    /// Time in which the amplitude of each mode falls to 1/e, in s; `None` where it does not decay.
+    pub decay_times_s: Vec<Option<f64>>,
+}
+
+impl Loaded {
+    /// The frequencies and decay times of poles, one for each mode.
+    pub(super) fn of(modes: &[Pole]) -> Self {
+        Self {
+            count: modes.len(),
+            frequencies_hz: modes.iter().map(|mode| mode.omega / TAU).collect(),
+            decay_times_s: modes.iter().map(|mode| (mode.sigma > 0.0).then(|| 1.0 / mode.sigma)).collect(),
+        }
+    }
+}
+
+/// A frequency (Hz) and a decay time (s) as columns; dashes where there is none.
+fn columns(hz: Option<&f64>, decay: Option<&Option<f64>>) -> String {
+    let hz = hz.map_or("-".into(), |hz| format!("{hz:.4}"));
+    let ms = decay.map_or("-".into(), |decay| format!("{:.3}", 1e3 * decay.unwrap_or(f64::INFINITY)));
+    format!("{hz:>14} {ms:>15}")
+}
+
+impl Report {
+    /// The table of a surface whose actuators load it: modes with them first, beside those of the sheet alone.
+    fn both(&self, loaded: &Loaded) -> String {
+        let mut text = format!(
+            "{}: {} modes up to {} Hz with the actuators on it, {} of the sheet alone\n",
+            self.surface, loaded.count, self.max_hz, self.count
+        );
+        text += "         with the actuators              the sheet alone\n";
+        text += "  mode   frequency Hz   decay time ms   frequency Hz   decay time ms   bending share %\n";
+        let rows = loaded.count.max(self.count);
+        for i in 0..rows.min(LISTED) {
+            let with = columns(loaded.frequencies_hz.get(i), loaded.decay_times_s.get(i));
+            let alone = columns(self.frequencies_hz.get(i), self.decay_times_s.get(i));
+            let share =
+                self.bending_shares.get(i).map_or("-".into(), |share| format!("{:.3}", 100.0 * share));
+            let _ = writeln!(text, "{:6} {with} {alone} {share:>17}", i + 1);
+        }
+        text + &more(rows)
+    }
+}
+
+/// What is not listed of `count` modes.
+fn more(count: usize) -> String {
+    match count.checked_sub(LISTED) {
+        Some(left) if left > 0 => format!("   ... and {left} more; --json lists all\n"),
+        _ => String::new(),
+    }
 }
 
 impl crate::Report for Report {
     fn text(&self) -> String {
+        if let Some(loaded) = &self.loaded {
+            return self.both(loaded);
+        }
         let mut text = format!("{}: {} modes up to {} Hz\n", self.surface, self.count, self.max_hz);
         text += "  mode   frequency Hz   decay time ms   bending share %\n";
         let rows = self.frequencies_hz.iter().zip(&self.decay_times_s).zip(&self.bending_shares);
         for (i, ((hz, decay), bending)) in rows.enumerate().take(LISTED) {
-            let (ms, share) = (1e3 * decay.unwrap_or(f64::INFINITY), 100.0 * bending);
-            let _ = writeln!(text, "{:6} {hz:14.4} {ms:15.3} {share:17.3}", i + 1);
+            let share = 100.0 * bending;
+            let _ = writeln!(text, "{:6} {} {share:17.3}", i + 1, columns(Some(hz), Some(decay)));
         }
-        if self.count > LISTED {
-            let _ = writeln!(text, "   ... and {} more; --json lists all", self.count - LISTED);
-        }
-        text
+        text + &more(self.count)
     }
 }

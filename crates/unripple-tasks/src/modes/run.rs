@@ -1,9 +1,9 @@
 //! Modal analysis of a surface.
 
-use super::{Ask, Report};
+use super::{Ask, Loaded, Report};
 use crate::numbers::above_zero;
 use crate::{Progress, TaskError, go_on};
-use unripple::physics::Modes;
+use unripple::physics::{Modes, loaded_modes};
 
 /// The modes of a surface up to a frequency.
 ///
@@ -17,6 +17,9 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     progress.stage("modes");
     let modes = Modes::solve(&surface, top, ask.accuracy).map_err(TaskError::input)?;
     let (frequencies, decays) = (modes.frequencies_hz(), modes.decay_times());
+    go_on(progress)?;
+    progress.stage("modes with the actuators on the sheet");
+    let loaded = loaded_modes(&surface, top, ask.accuracy).map_err(TaskError::input)?;
     Ok(Report {
         surface: surface.name.clone(),
         max_hz: top,
@@ -25,5 +28,6 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         decay_times_s: decays.iter().map(|t| t.is_finite().then_some(*t)).collect(),
         bending_shares: modes.bending_shares().to_vec(),
         relative_error: modes.error(),
+        loaded: loaded.map(|modes| Loaded::of(&modes)),
     })
 }

@@ -1,0 +1,37 @@
+//! The modes of a surface with its actuators on it, counted: masses, springs, coils and electrical loads.
+
+use super::ground::ACCURACY;
+use crate::{PhysicsError, loaded_modes};
+use serde::Serialize;
+use std::f64::consts::TAU;
+use unripple_core::Surface;
+
+/// What a design says of the modes of the sheet with its actuators on it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WithActuators {
+    /// Number of modes in the band.
+    pub mode_count: usize,
+    /// Frequency of the first mode above 0, in Hz.
+    pub first_mode_hz: f64,
+    /// Decay time of the amplitude, in seconds: the reciprocal of the mean decay rate of the modes in the band.
+    pub decay_time_s: f64,
+}
+
+impl WithActuators {
+    /// The modes up to the top of the band with the actuators on the sheet; `None` if no actuator loads it, or no mode is in the band.
+    ///
+    /// # Errors
+    /// Those of [`loaded_modes`].
+    pub(super) fn of(surface: &Surface) -> Result<Option<Self>, PhysicsError> {
+        let [low, top] = surface.emission.band;
+        let Some(modes) = loaded_modes(surface, top, ACCURACY)? else { return Ok(None) };
+        let first = modes.iter().find(|mode| mode.omega > 0.0);
+        let inside: Vec<_> = modes.iter().filter(|mode| mode.omega >= TAU * low).collect();
+        let decay = inside.iter().map(|mode| mode.sigma).sum::<f64>() / inside.len() as f64;
+        Ok(first.filter(|_| !inside.is_empty()).map(|first| Self {
+            mode_count: inside.len(),
+            first_mode_hz: first.omega / TAU,
+            decay_time_s: 1.0 / decay,
+        }))
+    }
+}
