@@ -2,11 +2,13 @@
 
 use super::ground::Ground;
 use super::left_out::left_out;
+use super::limits::limits;
 use super::{Design, Note, milliseconds};
 
 /// The notes on the figures of a surface.
 pub(super) fn notes(ground: &Ground<'_>, design: &Design) -> Vec<Note> {
     let mut notes = vec![growth(design), power()];
+    notes.extend(limits(ground.surface));
     notes.extend(left_out(ground));
     notes
 }

@@ -5,8 +5,11 @@ use unripple_core::{
     ActuatorKind, CoilDrive, Decay, Edge, Edges, Finger, Outline, Patch, Point, Scatterer, ScattererKind,
     Shape, Surface,
 };
-use unripple_physics::design::{Cavity, Nature, Windows, closed, design_by_law, film_strip, papers_surface};
-use unripple_physics::{Design, Modes, PhysicsError, design};
+use unripple_physics::design::{
+    Cavity, Nature, Windows, closed, design_by_law, film_strip, kirchhoff_over_mindlin, limits,
+    papers_surface,
+};
+use unripple_physics::{Design, Medium, Modes, PhysicsError, design};
 
 fn close(found: f64, expected: f64, tolerance: f64) {
     assert!((found / expected - 1.0).abs() < tolerance, "expected {expected}, found {found}");
@@ -375,4 +378,54 @@ fn what_the_closed_forms_leave_out_is_named() {
     for part in ["act by moments (1 actuator)", "2 mm radius (1 actuator)", "fixed to it"] {
         assert!(text.contains(part), "{part} is missing from {text}");
     }
+}
+
+/// Ratio of Kirchhoff's frequency to Mindlin's by another route: the determinant of deflection and rotation as functions of ω, its lowest
+/// zero found by bisection, in units in which the thickness, density and modulus are 1.
+fn by_bisection(share: f64, poisson: f64) -> f64 {
+    let k = std::f64::consts::TAU * share;
+    let (bending, shear) = (1.0 / (12.0 * (1.0 - poisson * poisson)), 5.0 / 6.0 / (2.0 * (1.0 + poisson)));
+    let determinant = |omega: f64| {
+        let square = omega * omega;
+        (shear * k * k - square) * (bending * k * k + shear - square / 12.0) - (shear * k).powi(2)
+    };
+    let (mut low, mut high) = (0.0, bending.sqrt() * k * k);
+    assert!(determinant(low) > 0.0 && determinant(high) < 0.0);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if determinant(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    bending.sqrt() * k * k / low
+}
+
+#[test]
+fn thick_sheets_and_wide_contacts_are_named() {
+    let mut surface = papers_surface();
+    let sheet = &mut surface.sheet;
+    (sheet.young, sheet.density, sheet.thickness, sheet.tension) = (70e9, 2500.0, 4e-3, 0.0);
+    for (share, poisson) in [(0.02, 0.22), (0.05, 0.3), (0.1, 0.22), (0.29, 0.3)] {
+        surface.sheet.poisson = poisson;
+        let k = std::f64::consts::TAU * share / surface.sheet.thickness;
+        let found = kirchhoff_over_mindlin(&surface.sheet, k);
+        assert!((found / by_bisection(share, poisson) - 1.0).abs() < 1e-9, "{found}");
+        // The band's top has that wavelength.
+        surface.emission.band = [100.0, Medium::of(&surface.sheet).omega(k) / std::f64::consts::TAU];
+        surface.emission.rate = 4.0 * surface.emission.band[1];
+        let notes = limits(&surface);
+        assert_eq!(notes.len(), usize::from(share > 0.0501), "{notes:?}");
+        assert!(notes.iter().all(|note| note.text.contains("Mindlin") && note.text.contains(" % above")));
+    }
+    // 46 %, as an independent computation has it.
+    assert!(
+        (kirchhoff_over_mindlin(&surface.sheet, std::f64::consts::TAU * 0.29 / 4e-3) - 1.46).abs() < 0.015
+    );
+
+    let mut wide = papers_surface();
+    wide.actuators[2].contact_radius = 5e-3;
+    let notes = limits(&wide);
+    assert!(notes.len() == 1 && notes[0].text.starts_with("a3 is up to 10 mm wide"), "{notes:?}");
+    wide.actuators[4].kind =
+        ActuatorKind::Piezo { patch: Patch::Round { radius: 6e-3 }, moment: 1e-3, mass: 0.0 };
+    assert!(limits(&wide)[0].text.starts_with("a3 and 1 more are up to 12 mm wide"));
+    assert!(design(&wide).unwrap().notes.iter().any(|note| note.topic == "wide contacts"));
 }

@@ -4,7 +4,7 @@ use super::beyond::Beyond;
 use crate::core::{Drive, Surface};
 use crate::field::{Measured, TakenOn, TargetFigures, Threshold};
 use crate::focus::{Focused, Target};
-use crate::physics::design::Linearity;
+use crate::physics::design::{Linearity, limits};
 use serde::Serialize;
 
 /// Topic of the note on why levels as felt do not hold, by which a report knows that they do not.
@@ -54,6 +54,7 @@ pub fn nearby(focused: &Focused, targets: &[Target]) -> Vec<Note> {
 /// Warnings that go with measured figures.
 pub(super) fn all(surface: &Surface, measured: &Measured, largest: f64, found: &Linearity) -> Vec<Note> {
     let mut notes = linear_theory(surface, largest, found);
+    notes.extend(limits(surface).into_iter().map(|limit| Note { topic: "model", text: limit.text }));
     if measured.taken_on == TakenOn::Library {
         notes.push(Note {
             topic: "linear theory",
