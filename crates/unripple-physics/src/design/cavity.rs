@@ -241,30 +241,13 @@ impl Cavity {
 }
 
 /// Length P of the rim in Weyl's law: fixed edges (clamped or supported) minus edges that move (free or elastic), in metres.
-pub(super) fn signed_perimeter(outline: &Outline) -> f64 {
+fn signed_perimeter(outline: &Outline) -> f64 {
     outline.perimeter() - 2.0 * outline.free_length()
-}
-
-/// Modes per unit wavenumber dM/dk = (2Sk - P)/4π by Weyl's law, in metres, at the wavenumber `k` (rad/m), with P of
-/// [`signed_perimeter`].
-pub(super) fn modes_per_wavenumber(outline: &Outline, k: f64) -> f64 {
-    weyl(outline.area(), signed_perimeter(outline), k)
 }
 
 /// Modes per unit wavenumber, in metres, for an area S (m²) and a rim P (m) at the wavenumber `k` (rad/m).
 fn weyl(area: f64, rim: f64, k: f64) -> f64 {
     (2.0 * area * k - rim) / (4.0 * PI)
-}
-
-/// Number of modes below the wavenumber `k` (rad/m) by Weyl's law, M = Sk²/4π - Pk/4π, with P of [`signed_perimeter`].
-pub(super) fn modes_below(outline: &Outline, k: f64) -> f64 {
-    (outline.area() * k - signed_perimeter(outline)) * k / (4.0 * PI)
-}
-
-/// The wavenumber below which Weyl's law counts one mode, in rad/m.
-pub(super) fn first_wavenumber(surface: &Surface) -> f64 {
-    let (area, rim) = (surface.outline.area(), signed_perimeter(&surface.outline));
-    (rim + (rim * rim + 16.0 * PI * area).sqrt()) / (2.0 * area)
 }
 
 /// ∫_0^T e^{-rate·t} dt, also for no decay.

@@ -34,7 +34,8 @@ pub struct Design {
     pub mode_count_exact: Option<usize>,
     /// Why there is no exact count, in words; `None` if there is one.
     pub mode_count_exact_reason: Option<String>,
-    /// Number of modes in the band by Weyl's law, Sk²/4π - Pk/4π, with P the length of fixed edges minus that of free edges.
+    /// Number of modes in the band by Weyl's law: Sk²/4π and a term of the rim, of each edge as it reflects waves (fixed, -Pk/4π for a
+    /// membrane; more for a clamped plate).
     pub mode_count_weyl: f64,
     /// Frequency of the first mode, in Hz; by Weyl's law where modes cannot be computed.
     pub first_mode_hz: f64,
@@ -43,7 +44,7 @@ pub struct Design {
     pub with_actuators: Option<WithActuators>,
     /// Heisenberg time, the mean number of modes per hertz n̄ = M/B, in seconds: the time needed to resolve neighbouring modes.
     pub heisenberg_time_s: f64,
-    /// Heisenberg time at the top of the band, (2Sk - P)/2c_g, in seconds.
+    /// Heisenberg time at the top of the band, the modes per hertz there by Weyl's law, in seconds.
     pub heisenberg_time_top_s: f64,
     /// Decay time of the amplitude, averaged over modes, in seconds.
     pub decay_time_s: f64,

@@ -1,7 +1,7 @@
 //! Mode counts and wave properties from which the figures of a design are computed.
 
-use super::cavity::{first_wavenumber, modes_below, modes_per_wavenumber};
 use super::paper::WAVELENGTH;
+use super::weyl::Weyl;
 use super::{Cavity, Recommended, Windows};
 use crate::{Medium, Modes, PhysicsError};
 use std::f64::consts::TAU;
@@ -49,7 +49,7 @@ impl<'a> Ground<'a> {
         let medium = Medium::of(&surface.sheet);
         let by_law = Cavity::of(surface, top);
         let first = counted.as_ref().ok().and_then(|(_, first)| *first);
-        let first_mode_hz = first.unwrap_or_else(|| medium.omega(first_wavenumber(surface)) / TAU);
+        let first_mode_hz = first.unwrap_or_else(|| medium.omega(Weyl::of(surface).first_wavenumber()) / TAU);
         // The law is asked only where nothing has been counted: of few modes it knows little.
         let few = counted.as_ref().map_or_else(|_| by_law.modes() < 1.0, |(count, _)| *count == 0);
         if few {
@@ -83,13 +83,14 @@ impl<'a> Ground<'a> {
 
     /// Number of modes by Weyl's law from the bottom to the top of the band.
     pub fn weyl_count(&self) -> f64 {
-        let below = |hz: f64| modes_below(&self.surface.outline, self.medium.wavenumber(TAU * hz)).max(0.0);
+        let law = Weyl::of(self.surface);
+        let below = |hz: f64| law.below(self.medium.wavenumber(TAU * hz)).max(0.0);
         below(self.surface.emission.band[1]) - below(self.surface.emission.band[0])
     }
 
     /// Number of modes per hertz at the top of the band.
     pub fn density_at_top(&self) -> f64 {
-        let density = TAU * modes_per_wavenumber(&self.surface.outline, self.k_top);
+        let density = TAU * Weyl::of(self.surface).per_wavenumber(self.k_top);
         density.max(0.0) / self.medium.group_celerity(self.k_top)
     }
 

@@ -25,6 +25,7 @@ mod text;
 mod touch;
 mod tradeoffs;
 mod waves;
+mod weyl;
 mod window;
 mod with_actuators;
 

@@ -79,7 +79,8 @@ fn counts(design: &Design) -> [Remark; 2] {
             Nature::Model,
             "M = πS(f/c)² + Pf/2c",
             format!(
-                "the sign + is that of free edges, and the sheet is glued to a frame; fixed edges take -, with {:.0} modes in the band",
+                "the sign + is that of free edges, and the sheet is glued to a frame; fixed edges take -, and somewhat more where a \
+                 clamped sheet has stiffness, with {:.0} modes in the band",
                 design.mode_count_weyl
             ),
         ),
@@ -88,8 +89,8 @@ fn counts(design: &Design) -> [Remark; 2] {
             Nature::Model,
             "2c/(2Sk + P)",
             format!(
-                "derived for a velocity that is the same at all frequencies; with dispersion and fixed edges it is 2c_g/(2Sk - P), \
-                 {:.1} Hz at the top of the band",
+                "derived for a velocity that is the same at all frequencies; with dispersion and fixed edges it is 2c_g/(2Sk - P), and \
+                 with the stiffness at the clamped rim {:.1} Hz at the top of the band",
                 1.0 / design.heisenberg_time_top_s
             ),
         ),

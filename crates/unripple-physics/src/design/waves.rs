@@ -1,6 +1,6 @@
 //! Rows of the dispersion table: wavelength, phase velocity and group velocity against frequency.
 
-use super::cavity::modes_per_wavenumber;
+use super::weyl::Weyl;
 use crate::Medium;
 use std::f64::consts::TAU;
 use unripple_core::Surface;
@@ -17,7 +17,7 @@ pub struct Wave {
     pub phase_celerity_m_s: f64,
     /// Group velocity dω/dk, in m/s.
     pub group_celerity_m_s: f64,
-    /// Modes per hertz by Weyl's law, dM/df = (2Sk - P)/2c_g, with P the length of fixed edges minus that of free edges.
+    /// Modes per hertz by Weyl's law, with the term of the rim for its kinds of edges.
     pub modes_per_hz: f64,
     /// Mean spacing of modes 1/(dM/df), in Hz; `None` where Weyl's law gives no modes.
     pub mode_spacing_hz: Option<f64>,
@@ -28,19 +28,20 @@ pub struct Wave {
 /// Waves at evenly spaced frequencies of the band, in `steps` (a number of) steps from its bottom to its top, 0 Hz left out.
 pub(super) fn waves(surface: &Surface, steps: usize) -> Vec<Wave> {
     let [low, top] = surface.emission.band;
+    let law = Weyl::of(surface);
     (0..=steps)
         .map(|i| low + (top - low) * i as f64 / steps as f64)
         .filter(|hz| *hz > 0.0)
-        .map(|hz| wave(surface, hz))
+        .map(|hz| wave(surface, &law, hz))
         .collect()
 }
 
-/// The wave of one frequency (Hz).
-fn wave(surface: &Surface, hz: f64) -> Wave {
+/// The wave of one frequency (Hz), with the modes counted by that law.
+fn wave(surface: &Surface, law: &Weyl, hz: f64) -> Wave {
     let medium = Medium::of(&surface.sheet);
     let k = medium.wavenumber(TAU * hz);
     let group = medium.group_celerity(k);
-    let density = TAU * modes_per_wavenumber(&surface.outline, k) / group;
+    let density = TAU * law.per_wavenumber(k) / group;
     Wave {
         frequency_hz: hz,
         wavelength_m: TAU / k,

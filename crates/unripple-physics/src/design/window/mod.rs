@@ -4,9 +4,11 @@ mod modal;
 mod places;
 
 use super::Cavity;
-use super::cavity::{first_wavenumber, modes_below};
+use super::weyl::Weyl;
 use crate::{Medium, ResponseOptions, responses};
 use modal::Modal;
+pub(super) use modal::{Term, exponentials, integral};
+pub(super) use places::{grid, targets};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use unripple_core::{Responses, Surface};
@@ -110,7 +112,7 @@ impl Windows {
     /// The contrast against window of a surface. Takes as long as a coarse solution for its modes.
     pub fn of(surface: &Surface) -> Self {
         let top = surface.emission.band[1];
-        let below = modes_below(&surface.outline, Medium::of(&surface.sheet).wavenumber(TAU * top));
+        let below = Weyl::of(surface).below(Medium::of(&surface.sheet).wavenumber(TAU * top));
         if below.is_nan() || below > MOST_MODES {
             return Self::by_law(
                 surface,
@@ -132,7 +134,7 @@ impl Windows {
     /// for people.
     pub fn by_law(surface: &Surface, reason: impl Into<String>) -> Self {
         let mut ringing = surface.clone();
-        let first = Medium::of(&surface.sheet).omega(first_wavenumber(surface)) / TAU;
+        let first = Medium::of(&surface.sheet).omega(Weyl::of(surface).first_wavenumber()) / TAU;
         let [low, top] = surface.emission.band;
         // Below the first mode there is no resonance, whatever Weyl's law gives.
         ringing.emission.band[0] = low.max(first).min(top);
