@@ -34,6 +34,11 @@ impl Common {
                 return Err(refused("each key once"));
             }
         }
+        if let Some(accuracy) = &arguments.accuracy
+            && set.insert("accuracy".into(), accuracy.clone()).is_some()
+        {
+            return Err(CliError::Input("--accuracy: expected once, found --set accuracy as well".into()));
+        }
         Ok(Self { json: arguments.json, set })
     }
 
@@ -52,6 +57,19 @@ impl Common {
         before.is_none().then(|| SurfaceAsk::Set { name: name.into(), set })
     }
 
+    /// The accuracy of `--accuracy`, for a command that reads no surface file and still computes modes; `--set` is refused.
+    ///
+    /// # Errors
+    /// [`CliError::Input`] of `--set`, or of an accuracy that is no number.
+    pub fn accuracy_alone(&self) -> Result<Option<f64>, CliError> {
+        if self.set.keys().any(|key| key != "accuracy") {
+            self.without_surface()?;
+        }
+        let Some(text) = self.set.get("accuracy") else { return Ok(None) };
+        let refused = || CliError::Input(format!("--accuracy {text}: expected a ratio from 1e-12 to 0.1"));
+        text.parse().map(Some).map_err(|_| refused())
+    }
+
     /// Refuses `--set` for a command that reads no surface file.
     ///
     /// # Errors
@@ -59,7 +77,11 @@ impl Common {
     pub fn without_surface(&self) -> Result<(), CliError> {
         match self.set.is_empty() {
             true => Ok(()),
-            false => Err(CliError::Input("--set: expected a command that reads a surface file".into())),
+            false => {
+                let option =
+                    if self.set.keys().all(|key| key == "accuracy") { "--accuracy" } else { "--set" };
+                Err(CliError::Input(format!("{option}: expected a command that reads a surface file")))
+            }
         }
     }
 }

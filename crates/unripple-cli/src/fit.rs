@@ -9,7 +9,7 @@ use unripple_tasks::fit::{self, Ask};
 
 /// Fits a model to a library.
 pub fn run(options: &FitOptions, common: &Common) -> Result<(), CliError> {
-    common.without_surface()?;
+    let accuracy = common.accuracy_alone()?;
     let pitch = options.grid_mm.map(|mm| positive(mm, "--grid-mm", "mm"));
     let ask = Ask {
         library: options.library.clone().into(),
@@ -18,6 +18,7 @@ pub fn run(options: &FitOptions, common: &Common) -> Result<(), CliError> {
         strays: options.strays,
         profile: options.profile,
         even_if_doubtful: options.even_if_doubtful,
+        accuracy,
         output: options.output.clone(),
     };
     output::perform(common.json, &ask, fit::run)

@@ -8,7 +8,7 @@ use unripple_tasks::modes::{self, Ask};
 
 /// Lists the modes of a surface.
 pub fn run(options: &ModesOptions, common: &Common) -> Result<(), CliError> {
-    let ModesOptions { surface, max_hz, accuracy } = options;
-    let ask = Ask { surface: common.surface(surface), top_hz: *max_hz, accuracy: *accuracy };
+    let ModesOptions { surface, max_hz } = options;
+    let ask = Ask { surface: common.surface(surface), top_hz: *max_hz, ..Ask::default() };
     output::perform(common.json, &ask, modes::run)
 }

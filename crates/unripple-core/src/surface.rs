@@ -17,6 +17,8 @@ pub struct Surface {
     pub finger: Finger,
     /// The actuators, in channel order.
     pub actuators: Vec<Actuator>,
+    /// Relative accuracy to which natural frequencies are to be computed, a ratio; `None` for that of each computation.
+    pub accuracy: Option<f64>,
 }
 
 /// The sheet: a thin plate under tension, uniform and isotropic unless [`Sheet::uneven`] says otherwise.

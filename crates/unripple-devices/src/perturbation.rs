@@ -35,7 +35,7 @@ const NODES_APART: f64 = 1.1;
 /// #     contact_radius: 0.0 };
 /// # let surface = Surface { name: "film".into(), outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
 /// #     sheet, emission: Emission { band: [0.0, 1e3], rate: 48e3, limit: 1.0, rms_limit: None },
-/// #     finger: Finger::default(), actuators: vec![a1] };
+/// #     finger: Finger::default(), accuracy: None, actuators: vec![a1] };
 ///
 /// let truth = Perturbation::default().truth(&surface)?;
 /// assert_eq!(truth.surface.sheet.uneven.scatterers.len(), 2);

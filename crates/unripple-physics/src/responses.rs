@@ -65,7 +65,7 @@ impl Default for ResponseOptions {
 /// #     contact_radius: 0.0 };
 /// # let surface = Surface { name: "film".into(), outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
 /// #     sheet, emission: Emission { band: [0.0, 1e3], rate: 48e3, limit: 1.0, rms_limit: None },
-/// #     finger: Finger::default(), actuators: vec![a1] };
+/// #     finger: Finger::default(), accuracy: None, actuators: vec![a1] };
 /// let Responses::Modal(modal) = responses(&surface, &ResponseOptions::default())? else { unreachable!() };
 /// assert_eq!(modal.input.ncols(), modal.poles.len());
 /// assert_eq!(modal.ports[0].name, "a1");

@@ -26,7 +26,7 @@
 //!
 //! let surface = Surface {
 //!     name: "film".into(), outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }), sheet: film, actuators: Vec::new(),
-//!     emission: Emission { band: [0.0, 1e3], rate: 48e3, limit: 1.0, rms_limit: None }, finger: Finger::default(),
+//!     emission: Emission { band: [0.0, 1e3], rate: 48e3, limit: 1.0, rms_limit: None }, finger: Finger::default(), accuracy: None,
 //! };
 //! let modes = Modes::solve(&surface, 400.0, 1e-6)?.frequencies_hz();
 //! assert!(modes.len() == 6 && (modes[0] - 163.7436).abs() < 1e-3);

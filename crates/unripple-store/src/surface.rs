@@ -32,13 +32,15 @@ use actuator::Base;
 use hole::Cut;
 use outline::{Fetch, Rim};
 use place::Ground;
+use range::of;
 use reader::{Faults, Section};
 use unripple_core::{Finger, Hole, Outline, Point, Sheet, Surface};
 
 /// Keys at the top of a surface file, format 1.
-const KEYS: [&str; 10] = [
+const KEYS: [&str; 11] = [
     "format",
     "name",
+    "accuracy",
     "outline",
     "hole",
     "sheet",
@@ -113,6 +115,10 @@ fn read(root: &Section, name: Option<String>, fetch: &Fetch, faults: &mut Faults
     if let (Some(emission), Some(actuators)) = (&emission, &actuators) {
         emission::carry(root, emission, actuators.len(), faults);
     }
+    let accuracy = match root.get("accuracy") {
+        Some(entry) => entry.number(&of::ACCURACY, faults).map(Some),
+        None => Some(None),
+    };
     let mut sheet = sheet?;
     sheet.uneven.scatterers = scatterers?;
     Some(Surface {
@@ -122,6 +128,7 @@ fn read(root: &Section, name: Option<String>, fetch: &Fetch, faults: &mut Faults
         emission: emission?,
         finger: finger?,
         actuators: actuators?,
+        accuracy: accuracy?,
     })
 }
 

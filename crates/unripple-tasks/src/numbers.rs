@@ -12,3 +12,17 @@ pub fn above_zero(value: f64, field: &'static str, unit: &str) -> Result<f64, Ta
         false => Err(TaskError::ask(field, format!("a number above 0 {unit}"), value)),
     }
 }
+
+/// The field of a relative accuracy, here and in surface files.
+pub const ACCURACY: &str = "accuracy";
+
+/// A relative accuracy of natural frequencies as the solvers of modes take it, or an error that names its field.
+///
+/// # Errors
+/// [`TaskError::Ask`] of any other number.
+pub fn accuracy(value: f64) -> Result<f64, TaskError> {
+    match (1e-12..=0.1).contains(&value) {
+        true => Ok(value),
+        false => Err(TaskError::ask(ACCURACY, "a ratio from 1e-12 to 0.1", value)),
+    }
+}

@@ -1,5 +1,6 @@
 //! The input of tasks that work on either a surface or a library of responses.
 
+use crate::numbers::{ACCURACY, accuracy};
 use crate::{Progress, Solved, SurfaceAsk, TaskError, between, own};
 use std::path::PathBuf;
 use unripple::act::Note;
@@ -64,7 +65,7 @@ pub fn warn(library: &Library, progress: &mut dyn Progress) -> Vec<Note> {
 /// # Errors
 /// Those of [`SurfaceAsk::load`]; [`TaskError::Input`] of a library that does not describe its surface or has no finished point.
 pub fn open(ask: &SurfaceAsk, progress: &mut dyn Progress) -> Result<Source, TaskError> {
-    if let SurfaceAsk::Name(name) = ask
+    if let SurfaceAsk::Name(name) | SurfaceAsk::Set { name, .. } = ask
         && Library::is_at(name)
     {
         warn(&Library::open(name)?, progress);
@@ -79,6 +80,16 @@ pub fn open(ask: &SurfaceAsk, progress: &mut dyn Progress) -> Result<Source, Tas
 pub fn open_again(ask: &SurfaceAsk) -> Result<Source, TaskError> {
     match ask {
         SurfaceAsk::Name(name) if Library::is_at(name) => library(name),
+        // Of the surface that a library describes, the accuracy of its modes alone may be another.
+        SurfaceAsk::Set { name, set } if Library::is_at(name) && set.keys().all(|key| key == ACCURACY) => {
+            let mut source = library(name)?;
+            for text in set.values() {
+                // What is no number is refused as one out of range is.
+                let asked = text.parse().unwrap_or(f64::NAN);
+                source.surface.accuracy = Some(accuracy(asked)?);
+            }
+            Ok(source)
+        }
         _ => Ok(Source::of(ask.load()?)),
     }
 }

@@ -13,6 +13,10 @@ use unripple_physics::{Entry, Footprint, Medium, Modes, Transducer, sensors, tra
 /// Half the distance of the central difference for slopes of mode shapes, in metres: relative error 2e-7 for a wave of 1000 rad/m.
 const STEP: f64 = 1e-6;
 
+/// Relative accuracy of the natural frequencies, unless the surface has its own: far below what a fit can tell. A hundred times coarser, it
+/// would show in the residuals of a quiet recording.
+const ACCURACY: f64 = 1e-6;
+
 /// The nominal modes as a Ritz basis, with the stiffness of other tensions in their coordinates.
 #[derive(Debug)]
 pub(super) struct Basis {
@@ -41,7 +45,7 @@ pub(super) struct Basis {
 impl Basis {
     /// The modes of a surface up to `max_hz`, and a profile of cosines with up to `order` half waves in all.
     pub fn new(surface: &Surface, max_hz: f64, order: usize) -> Result<Self, CalibrateError> {
-        let modes = Modes::solve(surface, max_hz, 1e-6)?;
+        let modes = Modes::solve(surface, max_hz, surface.accuracy.unwrap_or(ACCURACY))?;
         let medium = Medium::of(&surface.sheet);
         let k = 2.0 * medium.wavenumber(TAU * max_hz);
         let extent = surface.outline.extent();

@@ -74,6 +74,7 @@ fn sheet(
         },
         emission: Emission { band, rate, limit: 1.0, rms_limit: None },
         finger: Finger::default(),
+        accuracy: None,
         actuators: actuators.collect(),
     }
 }

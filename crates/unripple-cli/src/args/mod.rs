@@ -37,6 +37,10 @@ pub struct Arguments {
     /// is removed. Repeatable.
     #[arg(long, global = true, value_name = "KEY=VALUE", help_heading = heading::EVERY)]
     pub set: Vec<String>,
+    /// Compute natural frequencies to this relative accuracy, 1e-12 to 0.1, as `--set accuracy=RATIO` does. By default 1e-6, or 1e-4
+    /// where `focus` and others need a mesh.
+    #[arg(long, global = true, value_name = "RATIO", help_heading = heading::EVERY)]
+    pub accuracy: Option<String>,
     /// Tell each stage of the work on standard error, with the time since the beginning.
     #[arg(short, long, global = true, conflicts_with = "quiet", help_heading = heading::EVERY)]
     pub verbose: bool,
@@ -149,9 +153,6 @@ pub struct ModesOptions {
     /// Highest frequency, in Hz; by default the top of the surface's band.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub max_hz: Option<f64>,
-    /// Relative accuracy of the modes' frequencies.
-    #[arg(long, value_name = "FRACTION", default_value_t = 1e-6, allow_negative_numbers = true)]
-    pub accuracy: f64,
 }
 
 /// Options of `respond`.

@@ -1,5 +1,6 @@
 //! Tests of unripple-cli that share one program: a file a kind of truth. What needs a process of its own is beside it.
 
+mod accuracy;
 mod any_command;
 #[path = "../../../unripple-tasks/tests/any_surface/file.rs"]
 mod any_file;

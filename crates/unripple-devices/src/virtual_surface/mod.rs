@@ -95,7 +95,7 @@ impl VirtualOptions {
 /// #     contact_radius: 0.0 };
 /// # let surface = Surface { name: "film".into(), outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
 /// #     sheet, emission: Emission { band: [0.0, 1e3], rate: 48e3, limit: 1.0, rms_limit: None },
-/// #     finger: Finger::default(), actuators: vec![a1] };
+/// #     finger: Finger::default(), accuracy: None, actuators: vec![a1] };
 ///
 /// let mut device = Virtual::new(&surface, &VirtualOptions { block: 64, ..Default::default() })?;
 /// assert_eq!(device.layout().inputs, ["a1", "probe"]);

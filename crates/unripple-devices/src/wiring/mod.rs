@@ -43,7 +43,7 @@ use unripple_core::{Device, Layout};
 /// #     at: Point::from_mm(*x, *y), kind: ActuatorKind::Force, contact_radius: 0.0 }).collect();
 /// # let surface = Surface { name: "film".into(), outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
 /// #     sheet, emission: Emission { band: [0.0, 1e3], rate: 48e3, limit: 1.0, rms_limit: None },
-/// #     finger: Finger::default(), actuators };
+/// #     finger: Finger::default(), accuracy: None, actuators };
 ///
 /// let interface = Interface { drive_gains: vec![1.0, -1.0, 1.0], ..Default::default() };
 /// let mut device = Virtual::new(&surface, &VirtualOptions { interface, ..Default::default() })?;

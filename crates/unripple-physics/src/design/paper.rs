@@ -60,6 +60,7 @@ pub fn papers_surface() -> Surface {
         },
         emission: Emission { band: [0.0, 3000.0], rate: 48e3, limit: 1.0, rms_limit: None },
         finger: Finger::default(),
+        accuracy: None,
         actuators,
     }
 }

@@ -24,7 +24,9 @@ impl WithActuators {
     /// Those of [`loaded_modes`].
     pub(super) fn of(surface: &Surface) -> Result<Option<Self>, PhysicsError> {
         let [low, top] = surface.emission.band;
-        let Some(modes) = loaded_modes(surface, top, ACCURACY)? else { return Ok(None) };
+        let Some(modes) = loaded_modes(surface, top, surface.accuracy.unwrap_or(ACCURACY))? else {
+            return Ok(None);
+        };
         let first = modes.iter().find(|mode| mode.omega > 0.0);
         let inside: Vec<_> = modes.iter().filter(|mode| mode.omega >= TAU * low).collect();
         let decay = inside.iter().map(|mode| mode.sigma).sum::<f64>() / inside.len() as f64;

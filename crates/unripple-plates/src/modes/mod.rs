@@ -66,7 +66,7 @@ impl Modes {
     /// #     uneven: Uneven::default() };
     /// # let surface = Surface { name: "film".into(), outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
     /// #     sheet, emission: Emission { band: [0.0, 3e3], rate: 48e3, limit: 1.0, rms_limit: None },
-    /// #     finger: Finger::default(), actuators: vec![] };
+    /// #     finger: Finger::default(), accuracy: None, actuators: vec![] };
     /// let modes = Modes::solve(&surface, 400.0, 1e-6)?;
     /// let hz = modes.frequencies_hz();
     /// assert_eq!(hz.len(), 6);

@@ -22,6 +22,7 @@ pub fn film(edges: Edges) -> Surface {
         },
         emission: Emission { band: [0.0, 3e3], rate: 48e3, limit: 1.0, rms_limit: None },
         finger: Finger::default(),
+        accuracy: None,
         actuators: Vec::new(),
     }
 }

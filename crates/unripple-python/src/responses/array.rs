@@ -183,6 +183,7 @@ impl Given {
             },
             emission: Emission { band, rate: self.rate, limit: 1.0, rms_limit: None },
             finger: Finger::default(),
+            accuracy: None,
             actuators: self.names.iter().zip(&self.places).map(force).collect(),
         };
         // Through its file, which names, places and rates have to fit into.

@@ -63,6 +63,9 @@ impl Limits {
 pub(crate) mod of {
     use super::Limits;
 
+    // What the solvers of modes take.
+    pub(crate) const ACCURACY: Limits = Limits::new("", 0, 1e-12, 0.1);
+
     pub(crate) const LENGTH: Limits = Limits::new("mm", -3, 1.0, 1e5);
     pub(crate) const STRAIGHT: Limits = Limits::new("mm", -3, 0.0, 1e5);
     pub(crate) const COORDINATE: Limits = Limits::new("mm", -3, -1e6, 1e6);

@@ -26,6 +26,9 @@ pub fn to_toml(surface: &Surface) -> String {
     let mut out = Lines::default();
     out.line("format", "1");
     out.line("name", &quoted(&surface.name));
+    if let Some(accuracy) = surface.accuracy {
+        out.line("accuracy", &text(accuracy, 0));
+    }
     rim::outline(&surface.outline, &mut out);
     surface.outline.holes.iter().for_each(|hole| rim::hole(hole, &mut out));
     sheet(&surface.sheet, &mut out);

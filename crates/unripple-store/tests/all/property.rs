@@ -276,6 +276,8 @@ prop_compose! {
             emission: Emission { band: [band.0 * rate, band.1 * rate], rate, limit: limits.0, rms_limit: limits.1 },
             finger: Finger { mass, damping, stiffness, contact_radius },
             actuators,
+            // Half of the surfaces say how accurate they are to be computed.
+            accuracy: (limits.0 > 0.5).then(|| limits.0.clamp(1e-12, 0.1)),
         }
     }
 }

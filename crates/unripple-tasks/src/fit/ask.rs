@@ -23,6 +23,8 @@ pub struct Ask {
     pub profile: usize,
     /// Write the library even if the model is doubtful; the library is then marked, and tasks that use it warn.
     pub even_if_doubtful: bool,
+    /// Relative accuracy of the modes' frequencies; by default that of the surface that the library describes, or 1e-6.
+    pub accuracy: Option<f64>,
     /// Library to write, with responses of the fitted model, corrected by measured responses near their points. Needs
     /// points.
     pub output: Option<PathBuf>,
@@ -37,6 +39,7 @@ impl Default for Ask {
             strays: 3,
             profile: 3,
             even_if_doubtful: false,
+            accuracy: None,
             output: None,
         }
     }

@@ -2,6 +2,7 @@
 
 use super::heard::Heard;
 use super::{Ask, Report, fill, probed::Probed, report};
+use crate::numbers::accuracy;
 use crate::{Progress, Record, TaskError, go_on, grid, source};
 use std::path::Path;
 use std::time::Instant;
@@ -33,7 +34,10 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let record = ask.output.as_ref().map(|_| Record::of(ask)).transpose()?;
     let library = Library::open(&ask.library)?;
     let warned = source::warn(&library, progress);
-    let surface = source::described(&library)?;
+    let mut surface = source::described(&library)?;
+    if let Some(asked) = ask.accuracy {
+        surface.accuracy = Some(accuracy(asked)?);
+    }
     for (field, value) in [("strays", ask.strays), ("profile", ask.profile)] {
         if value > MOST {
             return Err(TaskError::ask(field, format!("at most {MOST}"), value));

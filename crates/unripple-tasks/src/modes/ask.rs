@@ -6,21 +6,15 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// Which modes are wanted, and how accurate.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
     /// Highest frequency, in Hz; by default the top of the surface's band.
     pub top_hz: Option<f64>,
-    /// Relative accuracy of the modes' frequencies.
-    pub accuracy: f64,
-}
-
-impl Default for Ask {
-    fn default() -> Self {
-        Self { surface: SurfaceAsk::default(), top_hz: None, accuracy: 1e-6 }
-    }
+    /// Relative accuracy of the modes' frequencies; by default that of the surface's file, or 1e-6.
+    pub accuracy: Option<f64>,
 }
 
 impl Request for Ask {

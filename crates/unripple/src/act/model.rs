@@ -13,9 +13,12 @@ const MESHED: f64 = 1e-4;
 /// first, since few modes are computed quickly.
 const FARTHER: [f64; 6] = [1.1, 1.3, 2.0, 4.0, 8.0, 16.0];
 
-/// Relative accuracy, a ratio, to which the natural frequencies of a surface are computed: the default of
+/// Relative accuracy, a ratio, to which the natural frequencies of a surface are computed: its own, or by default that of
 /// [`ResponseOptions`] for plain rectangles, 1e-4 where a mesh is needed.
 pub fn accuracy(surface: &Surface) -> f64 {
+    if let Some(asked) = surface.accuracy {
+        return asked;
+    }
     let plain = matches!(surface.outline.shape, Shape::Rectangle { .. })
         && surface.outline.holes.is_empty()
         && surface.sheet.uneven.is_nothing();

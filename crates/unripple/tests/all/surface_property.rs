@@ -49,6 +49,7 @@ fn surface() -> impl Strategy<Value = Surface> {
             },
             emission: Emission { band: [0.0, 900.0], rate: RATE, limit: 1.0, rms_limit: None },
             finger: Finger::default(),
+            accuracy: None,
             actuators: places
                 .iter()
                 .enumerate()

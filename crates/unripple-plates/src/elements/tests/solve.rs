@@ -27,6 +27,7 @@ pub(super) fn surface(size: f64, bending: f64, tension: f64, poisson: f64) -> Su
         sheet,
         emission: Emission { band: [0.0, 1.0], rate: 2.0, limit: 1.0, rms_limit: None },
         finger: Finger::default(),
+        accuracy: None,
         actuators: vec![],
     }
 }

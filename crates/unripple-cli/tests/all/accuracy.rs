@@ -1,0 +1,62 @@
+//! `--accuracy` for every command that computes modes.
+
+use crate::common;
+
+use common::*;
+use std::fs;
+
+/// A hexagon of film, which needs a mesh, in a narrow band.
+const HEXAGON: &str = r#"
+format = 1
+[outline]
+polygon_mm = [[30, 0], [90, 0], [120, 52], [90, 104], [30, 104], [0, 52]]
+[sheet]
+material = "BoPET"
+thickness_mm = 0.125
+tension_n_per_m = 200
+decay_time_ms = 70
+[drive]
+band_hz = [0, 900]
+sample_rate_hz = 8000
+[[actuator]]
+at_mm = [40, 12]
+[[actuator]]
+at_mm = [84, 16]
+"#;
+
+#[test]
+fn a_coarser_accuracy_reaches_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("hexagon.toml");
+    fs::write(&file, HEXAGON).unwrap();
+    let file = file.display().to_string();
+    let stated = |accuracy: &str| {
+        let report = json(&["modes", &file, "--accuracy", accuracy]);
+        assert_eq!(report["run"]["options"]["surface"]["set"]["accuracy"], accuracy, "{}", report["run"]);
+        report["relative_error"].as_f64().unwrap()
+    };
+    let (coarse, fine) = (stated("0.05"), stated("1e-5"));
+    assert!(fine <= 1e-5 && coarse <= 0.05 && coarse > fine, "{coarse} {fine}");
+    // The file may say it itself, and `--set` too.
+    assert_eq!(json(&["modes", &file, "--set", "accuracy=0.05"])["relative_error"].as_f64(), Some(coarse));
+    // Where nothing could be had, something coarser is.
+    let library = folder.path().join("library").display().to_string();
+    let out = folder.path().join("out").display().to_string();
+    for arguments in [
+        vec!["design", &file],
+        vec!["focus", &file, "--at", "60,50", "-o", &out, "--no-figures"],
+        vec!["respond", &file, "--at", "60,50", "-o", &library],
+        vec!["focus", &library, "--at", "60,50", "-o", &out, "--no-figures"],
+        vec!["compare", &file, "--at", "60,50", "--methods", "tr,inverse", "-o", &out],
+    ] {
+        let mut arguments = arguments;
+        arguments.extend(["--accuracy", "0.05"]);
+        json(&arguments);
+    }
+    assert!(refused(&["focus", &file, "--at", "60,50", "--accuracy", "0"], 2).contains("accuracy"));
+    assert!(
+        refused(&["design", &file, "--accuracy", "0.1", "--set", "accuracy=0.1"], 2).contains("--accuracy")
+    );
+    assert!(refused(&["devices", "--accuracy", "0.1"], 2).contains("--accuracy"));
+    assert!(refused(&["fit", &library, "--accuracy", "2"], 2).contains("accuracy"));
+}
