@@ -54,8 +54,13 @@ pub struct Design {
     pub window_recommended_why: String,
     /// Exponent of the window T in the contrast around the recommended window, dimensionless; a half for the √T law.
     pub window_exponent: f64,
-    /// Predicted contrast at the recommended window ([`Cavity::contrast`](super::Cavity::contrast)).
+    /// Predicted contrast at the recommended window: the mean over many targets, computed from the modes with the surface's own actuators
+    /// ([`Windows`](super::Windows)); by [`Cavity::contrast`](super::Cavity::contrast) where modes are not known.
     pub contrast_predicted: f64,
+    /// The contrasts that one target in twenty stays below, and one in twenty exceeds, at that window; `None` where modes are not known.
+    pub contrast_interval: Option<[f64; 2]>,
+    /// How `contrast_predicted` was computed.
+    pub contrast_from: Predicted,
     /// Contrast at the recommended window by the simplest closed form ([`closed::contrast`]).
     pub contrast_plain: f64,
     /// Predicted contrast as in `contrast_predicted`, but at the window of the largest contrast.
@@ -87,6 +92,16 @@ pub struct Design {
     pub paper: Option<PaperFigures>,
 }
 
+/// How a predicted contrast was computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Predicted {
+    /// From the surface's own modes with its actuators, at many targets: a simulation.
+    Modes,
+    /// From the statistics of a band with that density of modes and decay.
+    Statistics,
+}
+
 impl Design {
     /// The recommended window in words: its length in milliseconds, and why it is recommended.
     pub fn window_text(&self) -> String {
@@ -100,7 +115,8 @@ impl Design {
         let (n, chosen, window) = (*n, window, window.seconds);
         let lambda_min = TAU / ground.k_top;
         let [low, top] = surface.emission.band;
-        let contrast = cavity.contrast(n, window);
+        let contrast = ground.contrast();
+        let correction = ground.correction();
         let counts = actuator_counts(surface.actuators.len());
         Self {
             surface: surface.name.clone(),
@@ -123,13 +139,19 @@ impl Design {
             window_recommended_why: chosen.why.clone(),
             window_exponent: ground.exponent(),
             contrast_predicted: contrast,
+            contrast_interval: ground.windows.interval(window),
+            contrast_from: if ground.loaded_contrast.is_some() {
+                Predicted::Modes
+            } else {
+                Predicted::Statistics
+            },
             contrast_plain: closed::contrast(n, top - low, cavity.decay_time(), window, cavity.modes()),
             contrast_endless: contrast * chosen.largest / chosen.contrast,
-            contrast_by_window: by_window(cavity, window, &counts),
+            contrast_by_window: by_window(|n, window| ground.expected(n, window), window, &counts),
             actuator_counts: counts,
-            contrast_by_band: by_band(surface, ground.scale, n, window),
-            contrast_by_noise: by_noise(cavity, n, window),
-            contrast_by_rate: by_rate(cavity, n, window),
+            contrast_by_band: by_band(surface, [ground.scale, correction], n, window),
+            contrast_by_noise: by_noise(cavity, correction, n, window),
+            contrast_by_rate: by_rate(cavity, correction, n, window),
             spot_diameter_m: closed::spot_diameter(lambda_min),
             spot_diameter_one_frequency_m: closed::spot_of_one_frequency(lambda_min),
             pulse_duration_s: closed::pulse_duration(top - low, cavity.growth()),

@@ -31,6 +31,8 @@ pub(super) struct Ground<'a> {
     pub actuators: f64,
     /// The recommended window.
     pub window: Recommended,
+    /// Contrast against window, from which that window was chosen.
+    pub windows: Windows,
     /// Contrast with that window from the modes coupled to all that is attached to the sheet; `None` where the window is chosen by
     /// statistics.
     pub loaded_contrast: Option<f64>,
@@ -77,6 +79,7 @@ impl<'a> Ground<'a> {
             actuators,
             loaded_contrast: windows.is_modal().then_some(window.contrast).filter(|c| c.is_finite()),
             window,
+            windows,
             cavity,
         })
     }
@@ -107,11 +110,33 @@ impl<'a> Ground<'a> {
         (2.0 * area * TAU / WAVELENGTH + rim) / (2.0 * self.actuators * self.celerity_min())
     }
 
+    /// Contrast with the recommended window: from the modes with the surface's own actuators, or by statistics of the band where these are
+    /// not known.
+    pub fn contrast(&self) -> f64 {
+        self.loaded_contrast.unwrap_or_else(|| self.cavity.contrast(self.actuators, self.window.seconds))
+    }
+
+    /// Expected contrast for each number of `actuators` like those of the surface and a window in s: by the statistics of its own modes, or
+    /// of its band where these are not known; scaled so that it agrees with [`Ground::contrast`] where that holds.
+    pub fn expected(&self, actuators: &[f64], window: f64) -> Vec<f64> {
+        let of = |actuators: &[f64], window: f64| -> Vec<f64> {
+            let by_law = || actuators.iter().map(|n| self.cavity.contrast(*n, window)).collect();
+            self.windows.expected(actuators, window).unwrap_or_else(by_law)
+        };
+        let scale = self.contrast() / of(&[self.actuators], self.window.seconds)[0];
+        of(actuators, window).into_iter().map(|contrast| scale * contrast).collect()
+    }
+
+    /// What forms of the band alone are to be multiplied by to agree with [`Ground::contrast`].
+    pub fn correction(&self) -> f64 {
+        self.contrast() / self.cavity.contrast(self.actuators, self.window.seconds)
+    }
+
     /// Exponent of T in the contrast around the recommended window, dimensionless; ½ is the √T law.
     pub fn exponent(&self) -> f64 {
-        // A central difference over 1 % to either side.
-        let (step, window) = (1.01, self.window.seconds);
-        let at = |window: f64| self.cavity.contrast(self.actuators, window);
+        // A central difference over 5 % to either side.
+        let (step, window) = (1.05, self.window.seconds);
+        let at = |window: f64| self.expected(&[self.actuators], window)[0];
         (at(window * step) / at(window / step)).ln() / (2.0 * f64::ln(step))
     }
 }
@@ -138,7 +163,8 @@ pub(super) type Counted = Result<(usize, Option<f64>), String>;
 /// Solves for the modes and counts them.
 pub(super) fn count(surface: &Surface) -> Counted {
     check(surface).map_err(|e| e.to_string())?;
-    let modes = Modes::solve(surface, surface.emission.band[1], ACCURACY).map_err(|e| e.to_string())?;
+    let modes = Modes::solve(surface, surface.emission.band[1], surface.accuracy.unwrap_or(ACCURACY))
+        .map_err(|e| e.to_string())?;
     Ok(counted(surface, &modes))
 }
 

@@ -6,8 +6,8 @@ use super::digits::rounded;
 use super::ground::Ground;
 use unripple_core::{Actuator, ActuatorKind, CoilDrive, Surface, VoiceCoil};
 
-/// What the closed forms leave out, with the contrast that the modes with it have; `None` for ideal forces at points of a
-/// uniform sheet, of which nothing is left out.
+/// What the closed forms leave out, and which figures do not; `None` for ideal forces at points of a uniform sheet, of which nothing is left
+/// out.
 pub(super) fn left_out(ground: &Ground<'_>) -> Option<Note> {
     let surface = ground.surface;
     let parts = [
@@ -22,20 +22,18 @@ pub(super) fn left_out(ground: &Ground<'_>) -> Option<Note> {
     if parts.is_empty() {
         return None;
     }
-    let window = match ground.loaded_contrast {
-        Some(contrast) => {
-            format!("the window alone is computed with all of that, for a mean contrast of {contrast:.1}")
-        }
-        None => "the window, computed from statistics here, leaves it out as well".into(),
-    };
-    Some(Note {
-        topic: "left out".into(),
-        text: format!(
-            "modes, decay time and contrasts by closed forms are those of ideal forces at points of a uniform sheet, without \
-             {}; {window}",
-            parts.join(", ")
+    let parts = parts.join(", ");
+    let ideal = "those of ideal forces at points of a uniform sheet, without";
+    let text = match ground.loaded_contrast {
+        Some(_) => format!(
+            "modes and decay time of the sheet alone and the plain form are {ideal} {parts}; the window and all other contrasts are \
+             computed with all of that"
         ),
-    })
+        None => format!(
+            "modes, decay time and contrasts are {ideal} {parts}; the window, computed from statistics here, leaves it out as well"
+        ),
+    };
+    Some(Note { topic: "left out".into(), text })
 }
 
 /// Masses that move with the sheet at its actuators.

@@ -31,7 +31,7 @@ mod with_actuators;
 
 pub use cavity::Cavity;
 pub use deformation::{Bend, Deformation, deformation};
-pub use figures::Design;
+pub use figures::{Design, Predicted};
 pub use limits::{kirchhoff_over_mindlin, limits};
 pub use linear_level::{LinearBound, LinearLevel};
 pub use linearity::{Linearity, linearity};

@@ -18,8 +18,8 @@ pub(super) fn paper_figures(ground: &Ground<'_>, design: &Design) -> PaperFigure
         celerity_at_15mm_m_s: ground.medium.phase_celerity(TAU / WAVELENGTH),
         window_s: ground.window_paper(),
         decay_time_s,
-        contrast_at_decay_time: damped.contrast(n, window),
-        contrast_by_rate: by_rate(&damped, n, window),
+        contrast_at_decay_time: ground.correction() * damped.contrast(n, window),
+        contrast_by_rate: by_rate(&damped, ground.correction(), n, window),
         table1: table1(),
         remarks: Vec::new(),
     };

@@ -1,7 +1,7 @@
 //! The design figures as text for people.
 
 use super::digits::rounded;
-use super::{Design, PaperFigures, Touch, milliseconds};
+use super::{Design, PaperFigures, Predicted, Touch, milliseconds};
 use std::fmt::{Display, Formatter, Result};
 
 impl Display for Design {
@@ -96,11 +96,19 @@ fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
     if let Some(paper) = &d.paper {
         line(f, "window by the paper's formula", &format!("{:.1} ms", paper.window_s * 1e3))?;
     }
-    let (here, endless) = (d.contrast_predicted, d.contrast_endless);
+    let how = match d.contrast_from {
+        Predicted::Modes => "from the modes with these actuators",
+        Predicted::Statistics => "by statistics of the band",
+    };
+    line(f, "contrast", &format!("{:.1}, {how}", d.contrast_predicted))?;
+    if let Some([low, high]) = d.contrast_interval {
+        line(f, "nine targets in ten have", &format!("{low:.1} to {high:.1}"))?;
+    }
+    let (endless, plain) = (d.contrast_endless, d.contrast_plain);
     line(
         f,
-        "contrast by closed forms",
-        &format!("{here:.1} with it, at the best window {endless:.1}; plain form {:.1}", d.contrast_plain),
+        "at the best window",
+        &format!("{endless:.1}; with the recommended one by the plain form {plain:.1}"),
     )?;
     write!(f, "  {:>8}", "T ms \\ N")?;
     d.actuator_counts.iter().try_for_each(|n| write!(f, " {n:>7}"))?;

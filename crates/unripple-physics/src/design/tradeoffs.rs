@@ -75,22 +75,30 @@ pub(super) fn actuator_counts(own: usize) -> Vec<usize> {
     counts
 }
 
-/// Contrast (a ratio) for windows around the recommended one (s), which is among them, and for each number of actuators.
-pub(super) fn by_window(cavity: &Cavity, recommended: f64, counts: &[usize]) -> Vec<ByWindow> {
+/// Contrast (a ratio) for windows around the recommended one (s), which is among them, and for each number of actuators, as `expected` has it
+/// for numbers of actuators and a window in s.
+pub(super) fn by_window(
+    expected: impl Fn(&[f64], f64) -> Vec<f64>,
+    recommended: f64,
+    counts: &[usize],
+) -> Vec<ByWindow> {
     let window = |step: i32| match step {
         0 => recommended,
         _ => rounded(recommended * 2f64.powf(0.5 * f64::from(step)), DIGITS),
     };
-    let row = |window_s: f64| {
-        let contrast = counts.iter().map(|n| cavity.contrast(*n as f64, window_s)).collect();
-        ByWindow { window_s, contrast }
-    };
+    let actuators: Vec<f64> = counts.iter().map(|n| *n as f64).collect();
+    let row = |window_s: f64| ByWindow { window_s, contrast: expected(&actuators, window_s) };
     (-STEPS..=STEPS).map(window).map(row).collect()
 }
 
 /// Contrast for bands of other widths, below half the sample rate, with a window in s; `scale` is the exact
-/// mode count over Weyl's.
-pub(super) fn by_band(surface: &Surface, scale: f64, actuators: f64, window: f64) -> Vec<ByBand> {
+/// mode count over Weyl's, `correction` the contrast in the surface's own band over that of the law.
+pub(super) fn by_band(
+    surface: &Surface,
+    [scale, correction]: [f64; 2],
+    actuators: f64,
+    window: f64,
+) -> Vec<ByBand> {
     let [low, top] = surface.emission.band;
     let medium = Medium::of(&surface.sheet);
     let tops = BANDS.iter().map(|share| low + share * (top - low));
@@ -104,7 +112,7 @@ pub(super) fn by_band(surface: &Surface, scale: f64, actuators: f64, window: f64
                 top_hz,
                 lambda_min_m,
                 modes: cavity.modes(),
-                contrast: cavity.contrast(actuators, window),
+                contrast: correction * cavity.contrast(actuators, window),
                 spot_diameter_m: closed::spot_diameter(lambda_min_m),
                 pulse_duration_s: closed::pulse_duration(top_hz - low, cavity.growth()),
             }
@@ -112,17 +120,22 @@ pub(super) fn by_band(surface: &Surface, scale: f64, actuators: f64, window: f64
         .collect()
 }
 
-/// Contrast (a ratio) for the tabulated rates, with a window in s.
-pub(super) fn by_rate(cavity: &Cavity, actuators: f64, window: f64) -> Vec<ByRate> {
-    let row =
-        |&rate_hz: &f64| ByRate { rate_hz, contrast: cavity.repeated(actuators, window, 1.0 / rate_hz) };
+/// Contrast (a ratio) for the tabulated rates, with a window in s; `correction` is the contrast of a single focus over that of the cavity.
+pub(super) fn by_rate(cavity: &Cavity, correction: f64, actuators: f64, window: f64) -> Vec<ByRate> {
+    let contrast = |rate_hz: f64| correction * cavity.repeated(actuators, window, 1.0 / rate_hz);
+    let row = |&rate_hz: &f64| ByRate { rate_hz, contrast: contrast(rate_hz) };
     RATES.iter().map(row).collect()
 }
 
-/// Contrast (a ratio) for the tabulated levels of noise, with a window in s.
-pub(super) fn by_noise(cavity: &Cavity, actuators: f64, window: f64) -> Vec<ByNoise> {
-    let row =
-        |&noise_ratio: &f64| ByNoise { noise_ratio, contrast: cavity.noisy(actuators, window, noise_ratio) };
+/// Contrast (a ratio) for the tabulated levels of noise, with a window in s; `correction` is the contrast without noise over that of the cavity.
+pub(super) fn by_noise(cavity: &Cavity, correction: f64, actuators: f64, window: f64) -> Vec<ByNoise> {
+    let contrast = |ratio: f64| {
+        // Noise adds to 1/C² of the corrected contrast as it does to that of the cavity.
+        let alone = cavity.contrast(actuators, window);
+        let added = cavity.noisy(actuators, window, ratio).powi(-2) - alone.powi(-2);
+        ((correction * alone).powi(-2) + added).powf(-0.5)
+    };
+    let row = |&noise_ratio: &f64| ByNoise { noise_ratio, contrast: contrast(noise_ratio) };
     NOISES.iter().map(row).collect()
 }
 
@@ -143,7 +156,10 @@ mod tests {
     fn windows_are_about_the_recommended_one() {
         let cavity = Cavity::of(&papers_surface(), 3000.0);
         let windows = |recommended: f64| -> Vec<f64> {
-            by_window(&cavity, recommended, &[8]).iter().map(|row| 1e3 * row.window_s).collect()
+            by_window(|n, window| vec![cavity.contrast(n[0], window)], recommended, &[8])
+                .iter()
+                .map(|row| 1e3 * row.window_s)
+                .collect()
         };
         let close = |found: Vec<f64>, expected: [f64; 9]| {
             assert_eq!(found.len(), expected.len());

@@ -33,7 +33,7 @@ pub fn figures(design: &Design) -> Vec<Figure> {
         None => (d.mode_count_weyl, "modes in the band, by Weyl's law"),
     };
     let mut all = vec![
-        figure("contrast_predicted", "contrast by closed form", d.contrast_predicted, "", 1),
+        figure("contrast_predicted", "contrast predicted", d.contrast_predicted, "", 1),
         figure("contrast_endless", "the same, at the best window", d.contrast_endless, "", 1),
         figure("window_recommended", "window recommended", d.window_recommended_s * 1e3, "ms", 1),
         figure("modes", by, modes, "", 0),

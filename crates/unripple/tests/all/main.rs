@@ -7,6 +7,7 @@ mod act_report;
 mod bench;
 mod contrast_map_oracle;
 mod contrast_oracle;
+mod contrast_statistics;
 mod design_golden;
 mod drafting_oracle;
 mod felt_contrast;

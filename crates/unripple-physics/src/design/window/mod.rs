@@ -3,8 +3,8 @@
 mod modal;
 mod places;
 
-use super::Cavity;
 use super::weyl::Weyl;
+use super::{Cavity, Statistics};
 use crate::{Medium, ResponseOptions, responses};
 use modal::Modal;
 pub(super) use modal::{Term, exponentials, integral};
@@ -67,6 +67,10 @@ const MOST_MODES: f64 = 2000.0;
 pub struct Windows {
     /// Contrast against window in s, ascending.
     curve: Vec<(f64, f64)>,
+    /// The contrasts of nine targets in ten for each of these windows; none where the curve is computed from statistics.
+    spread: Vec<[f64; 2]>,
+    /// Expected contrast of any number of actuators, from the modes; `None` where the curve is computed from statistics of the band.
+    by_modes: Option<Statistics>,
     /// Why the curve is computed from statistics, if it is.
     statistics: Option<String>,
 }
@@ -119,10 +123,15 @@ impl Windows {
                 format!("some {below:.0} modes are too many to be solved for here"),
             );
         }
-        let options = ResponseOptions { accuracy: ACCURACY, ..ResponseOptions::default() };
+        // A coarser accuracy may be all that can be had; a finer one would change nothing.
+        let accuracy = surface.accuracy.map_or(ACCURACY, |asked| asked.max(ACCURACY));
+        let options = ResponseOptions { accuracy, ..ResponseOptions::default() };
         match responses(surface, &options) {
-            Ok(Responses::Modal(modal)) => match Modal::of(&modal) {
-                Ok(modal) => Self::along(surface, None, |window| modal.contrast(window)),
+            Ok(Responses::Modal(responses)) => match Modal::of(&responses) {
+                Ok(modal) => Self {
+                    by_modes: Statistics::of(&responses, Medium::of(&surface.sheet)),
+                    ..Self::along(surface, None, |window| modal.contrast(window))
+                },
                 Err(reason) => Self::by_law(surface, reason),
             },
             Ok(Responses::Sampled(_)) => Self::by_law(surface, "its modes are not known"),
@@ -140,17 +149,27 @@ impl Windows {
         ringing.emission.band[0] = low.max(first).min(top);
         let cavity = Cavity::of(&ringing, top);
         let actuators = surface.actuators.len() as f64;
-        Self::along(surface, Some(reason.into()), |window| cavity.contrast(actuators, window))
+        Self::along(surface, Some(reason.into()), |window| {
+            (cavity.contrast(actuators, window), [f64::NAN; 2])
+        })
     }
 
-    /// The curve of a function that gives the contrast for a window (s), at all windows that are considered.
-    fn along(surface: &Surface, statistics: Option<String>, contrast: impl Fn(f64) -> f64 + Sync) -> Self {
+    /// The curve of a function that gives the contrast for a window (s), and those of nine targets in ten, at all windows that are considered.
+    fn along(
+        surface: &Surface,
+        statistics: Option<String>,
+        contrast: impl Fn(f64) -> (f64, [f64; 2]) + Sync,
+    ) -> Self {
         let shortest = CROSSINGS * Cavity::of(surface, surface.emission.band[1]).crossing();
         let longest = LONGEST.max(4.0 * shortest);
         let steps = (PER_DOUBLING * (longest / shortest).log2()).ceil();
         let at = |step: u32| shortest * (longest / shortest).powf(f64::from(step) / steps);
-        let curve = (0..=steps as u32).into_par_iter().map(|step| (at(step), contrast(at(step)))).collect();
-        Self { curve, statistics }
+        let found: Vec<_> =
+            (0..=steps as u32).into_par_iter().map(|step| (at(step), contrast(at(step)))).collect();
+        let spread =
+            found.iter().map(|(_, (_, spread))| *spread).filter(|[low, _]| low.is_finite()).collect();
+        let curve = found.into_iter().map(|(window, (mean, _))| (window, mean)).collect();
+        Self { curve, spread, by_modes: None, statistics }
     }
 
     /// Whether the contrasts are computed from the modes coupled to all that is attached to the sheet, rather than from statistics.
@@ -192,12 +211,32 @@ impl Windows {
     /// Expected contrast (a ratio of amplitudes) for a window, in s. Interpolated between the windows considered; beyond the
     /// shortest and the longest it is that of the nearest.
     pub fn contrast(&self, window: f64) -> f64 {
+        self.interpolated(window, |i| Some(self.curve[i].1)).unwrap_or(f64::NAN)
+    }
+
+    /// The contrasts that one target in twenty stays below, and one in twenty exceeds, for a window in s; `None` where they are not computed
+    /// from the modes.
+    pub fn interval(&self, window: f64) -> Option<[f64; 2]> {
+        let end = |which: usize| self.interpolated(window, |i| Some(self.spread.get(i)?[which]));
+        Some([end(0)?, end(1)?])
+    }
+
+    /// Expected contrast for each number of `actuators` like those of the surface and a window in s, from the modes; `None` where these are
+    /// not known.
+    pub fn expected(&self, actuators: &[f64], window: f64) -> Option<Vec<f64>> {
+        Some(self.by_modes.as_ref()?.contrasts(actuators, window))
+    }
+
+    /// A value along the curve at a window (s), from its values at the windows considered.
+    fn interpolated(&self, window: f64, value: impl Fn(usize) -> Option<f64>) -> Option<f64> {
         let after = self.curve.partition_point(|(t, _)| *t < window);
-        match (after.checked_sub(1).and_then(|i| self.curve.get(i)), self.curve.get(after)) {
-            (Some((t0, c0)), Some((t1, c1))) => c0 + (c1 - c0) * (window / t0).ln() / (t1 / t0).ln(),
-            (Some((_, c)), None) | (None, Some((_, c))) => *c,
-            (None, None) => f64::NAN,
+        let last = self.curve.len().checked_sub(1)?;
+        if after == 0 || after > last {
+            return value(after.min(last));
         }
+        let ((t0, _), (t1, _)) = (self.curve[after - 1], self.curve[after]);
+        let (c0, c1) = (value(after - 1)?, value(after)?);
+        Some(c0 + (c1 - c0) * (window / t0).ln() / (t1 / t0).ln())
     }
 
     fn floor(&self) -> f64 {

@@ -20,12 +20,19 @@ pub(super) struct Modal {
     within: Vec<Vec<usize>>,
 }
 
+/// Share of the targets whose contrast is below the lower end of the interval that is given, and above its upper end. Doubled, one target in five
+/// lies outside it.
+const TAIL: f64 = 0.05;
+
 /// Re a e^{st}, a part of the velocity of a mode.
-#[derive(Clone, Copy, Debug)]
-struct Term {
-    mode: usize,
-    amplitude: c64,
-    rate: c64,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Term {
+    /// Index of the mode.
+    pub mode: usize,
+    /// Complex amplitude a.
+    pub amplitude: c64,
+    /// Complex frequency s, in 1/s.
+    pub rate: c64,
 }
 
 impl Modal {
@@ -53,7 +60,7 @@ impl Modal {
             return Err("focal discs leave nothing of the surface outside them");
         }
         Ok(Self {
-            terms: poles.iter().enumerate().flat_map(|(mode, pole)| terms(mode, *pole)).collect(),
+            terms: poles.iter().enumerate().flat_map(|(mode, pole)| exponentials(mode, *pole)).collect(),
             gains: product(input.transpose(), input.as_ref()),
             targets: shapes.at_all(&targets).transpose().to_owned(),
             within: targets.iter().map(inside).collect(),
@@ -61,8 +68,9 @@ impl Modal {
         })
     }
 
-    /// Contrast at the focal instant of a window in seconds, from the mean of 1/C² over the targets.
-    pub fn contrast(&self, window: f64) -> f64 {
+    /// Contrast at the focal instant of a window in seconds, from the mean of 1/C² over the targets, and the contrasts that a twentieth of the
+    /// targets stay below and above.
+    pub fn contrast(&self, window: f64) -> (f64, [f64; 2]) {
         let states = product(self.left(window).as_ref(), self.targets.as_ref());
         let field = product(self.points.as_ref(), states.as_ref());
         let square = |target: usize| {
@@ -74,8 +82,11 @@ impl Modal {
                 self.targets.col(target).iter().zip(states.col(target).iter()).map(|(a, b)| a * b).sum();
             (all - disc) / outside / (peak * peak)
         };
-        let targets = self.targets.ncols();
-        ((0..targets).map(square).sum::<f64>() / targets as f64).powf(-0.5)
+        let mut squares: Vec<f64> = (0..self.targets.ncols()).map(square).collect();
+        let mean = (squares.iter().sum::<f64>() / squares.len() as f64).powf(-0.5);
+        squares.sort_by(f64::total_cmp);
+        let share = |of: f64| squares[(of * (squares.len() - 1) as f64).round() as usize].powf(-0.5);
+        (mean, [share(1.0 - TAIL), share(TAIL)])
     }
 
     /// Amplitude that a unit of mode n at the target gives to mode m at the focal instant, modes x modes.
@@ -86,7 +97,7 @@ impl Modal {
         let ends: Vec<c64> = self.terms.iter().map(|term| (term.rate * window).exp()).collect();
         for (i, a) in self.terms.iter().enumerate() {
             for (j, b) in self.terms[..=i].iter().enumerate() {
-                let gathered = together([a, b], [ends[i], ends[j]], window);
+                let gathered = integral([a, b], [ends[i], ends[j]], window);
                 left[(a.mode, b.mode)] += gathered;
                 if a.mode == b.mode && i != j {
                     left[(a.mode, b.mode)] += gathered;
@@ -105,7 +116,7 @@ impl Modal {
 }
 
 /// ∫_0^T Re a e^{st} Re b e^{rt} dt, with e^{sT} and e^{rT}.
-fn together([a, b]: [&Term; 2], [end, other]: [c64; 2], window: f64) -> f64 {
+pub fn integral([a, b]: [&Term; 2], [end, other]: [c64; 2], window: f64) -> f64 {
     let sum = a.amplitude * b.amplitude * gathered(a.rate + b.rate, end * other, window)
         + a.amplitude * b.amplitude.conj() * gathered(a.rate + b.rate.conj(), end * other.conj(), window);
     0.5 * sum.re
@@ -121,7 +132,7 @@ fn gathered(rate: c64, end: c64, window: f64) -> c64 {
 }
 
 /// The velocity of a mode, [`Pole::velocity`], as a sum of exponentials.
-fn terms(mode: usize, pole: Pole) -> Vec<Term> {
+pub fn exponentials(mode: usize, pole: Pole) -> Vec<Term> {
     let Pole { omega, sigma, onset } = pole;
     let term = |amplitude: c64, rate: c64| Term { mode, amplitude, rate };
     let square = (omega - sigma) * (omega + sigma);
@@ -164,7 +175,8 @@ mod tests {
         for (omega, sigma) in [(900.0, 30.0), (300.0, 400.0), (50.0, 50.0), (0.0, 0.0), (0.0, 20.0)] {
             for pole in [Pole::new(omega, sigma), Pole::moved(omega, sigma)] {
                 for t in [0.0, 1e-3, 7e-3, 0.05] {
-                    let sum: f64 = terms(0, pole).iter().map(|x| (x.amplitude * (x.rate * t).exp()).re).sum();
+                    let sum: f64 =
+                        exponentials(0, pole).iter().map(|x| (x.amplitude * (x.rate * t).exp()).re).sum();
                     assert!(
                         (sum - pole.velocity(t)).abs() < 1e-4,
                         "{pole:?} {t}: {sum} {}",
@@ -177,7 +189,7 @@ mod tests {
 
     #[test]
     fn integrals_are_those_of_fine_sums() {
-        let (a, b) = (terms(0, Pole::new(900.0, 30.0)), terms(1, Pole::new(300.0, 400.0)));
+        let (a, b) = (exponentials(0, Pole::new(900.0, 30.0)), exponentials(1, Pole::new(300.0, 400.0)));
         let (window, steps) = (0.02, 20_000);
         for (one, other) in [(&a, &a), (&a, &b), (&b, &b)] {
             let found: f64 = one
@@ -185,7 +197,7 @@ mod tests {
                 .flat_map(|x| {
                     other.iter().map(move |y| {
                         let ends = [x, y].map(|term| (term.rate * window).exp());
-                        together([x, y], ends, window)
+                        integral([x, y], ends, window)
                     })
                 })
                 .sum();

@@ -25,7 +25,7 @@ const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
 /// Targets on a surface, in metres: at least a shortest wavelength (`wavelength`, m) from the rim, or a quarter of the mean
 /// chord on a small surface, and half a wavelength from the `actuators`, near which the field is strong anyway.
-pub(super) fn targets(outline: &Outline, actuators: &[Point], wavelength: f64) -> Vec<Point> {
+pub fn targets(outline: &Outline, actuators: &[Point], wavelength: f64) -> Vec<Point> {
     let (width, height) = outline.extent();
     // A quarter of the mean chord πS/P is about 0.8 S/P.
     let margin = wavelength.min(0.8 * outline.area() / outline.perimeter());
@@ -43,7 +43,7 @@ pub(super) fn targets(outline: &Outline, actuators: &[Point], wavelength: f64) -
 }
 
 /// Centres of the grid's cells that lie inside the outline, in metres; `wavelength` is the shortest wavelength, in m.
-pub(super) fn grid(outline: &Outline, wavelength: f64) -> Vec<Point> {
+pub fn grid(outline: &Outline, wavelength: f64) -> Vec<Point> {
     let (width, height) = outline.extent();
     let cells = |length: f64| (CELLS * length / wavelength).ceil().max(1.0) as usize;
     let (columns, rows) = (cells(width), cells(height));
