@@ -20,6 +20,7 @@ pub fn run(options: &ViewOptions, common: &Common) -> Result<(), CliError> {
         listen: options.listen.unwrap_or(IpAddr::V4(Ipv4Addr::LOCALHOST)),
         port: options.port,
         token: options.token.clone(),
+        framed_by: options.framed_by.clone(),
         folder: options.folder.clone(),
         seconds: options.seconds,
     };

@@ -4,6 +4,7 @@ import './compare.test.mjs';
 import './figures.test.mjs';
 import './file.test.mjs';
 import './focus.test.mjs';
+import './framed.test.mjs';
 import './guard.test.mjs';
 import './keyboard.test.mjs';
 import './malformed.test.mjs';

@@ -84,6 +84,7 @@ fn view() -> View {
         device_name: "virtual".into(),
         address: ([127, 0, 0, 1], 0).into(),
         token: None,
+        framed_by: Vec::new(),
         folder: ".".into(),
         quiet: false,
     }

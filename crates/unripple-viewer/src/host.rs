@@ -310,6 +310,7 @@ mod tests {
             device_name: "virtual".into(),
             address: ([127, 0, 0, 1], 0).into(),
             token: None,
+            framed_by: Vec::new(),
             folder: std::env::temp_dir(),
             quiet: true,
         };

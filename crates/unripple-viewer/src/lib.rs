@@ -9,7 +9,7 @@
 //! told to stop. A [`Command`] is what a page sends, a [`Draft`] the surface that pages edit, and [`task`] is all of this as a task.
 //!
 //! Inside, `wire` is the protocol of pages. `door` accepts connections, `lobby` limits their number; `server` answers requests that `guard` allows,
-//! and `link` serves a page's WebSocket. `host` runs the `session`, a state machine: it takes the pages' commands and the time that passes,
+//! `framing` says which other pages may show this one, and `link` serves a page's WebSocket. `host` runs the `session`, a state machine: it takes the pages' commands and the time that passes,
 //! and gives messages and pictures. The session consists of the `simulation`, which plays the surface, and the `editor`, which changes it;
 //! `compute` does beside it what takes longer than a picture may wait, unless a `stop` gives it up. Results leave through the `outbox` to
 //! the `notices`, from which each page takes those that it has not seen, as fast as it can. `jobs` are long tasks, such as a calibration
@@ -27,7 +27,7 @@
 //!     // Simulated, with computed responses.
 //!     stored: None, without_scale: None, respond: None, device: None, device_name: "virtual".into(), follow: None,
 //!     // Any free port, for this machine only.
-//!     address: ([127, 0, 0, 1], 0).into(), token: None, folder: std::env::temp_dir(), quiet: true,
+//!     address: ([127, 0, 0, 1], 0).into(), token: None, framed_by: Vec::new(), folder: std::env::temp_dir(), quiet: true,
 //! };
 //! let viewer = view.open()?;
 //! assert!(viewer.url().starts_with("http://127.0.0.1:") && viewer.elsewhere().is_none());
@@ -42,6 +42,7 @@ mod draft;
 mod edition;
 mod editor;
 mod error;
+mod framing;
 mod guard;
 mod host;
 mod jobs;
@@ -64,6 +65,7 @@ mod wire;
 pub use compute::Responder;
 pub use draft::Draft;
 pub use error::ViewError;
+pub use framing::Origin;
 pub use simulation::Follow;
 pub use unripple_tasks::play::Opener;
 pub use view::View;

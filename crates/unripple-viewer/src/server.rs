@@ -26,10 +26,6 @@ const SENT: Duration = Duration::from_secs(20);
 /// Largest number of open pages, a classroom's and more; one too many is refused with the reason.
 const MOST_PAGES: usize = 64;
 
-/// What a page may load: its own files alone.
-const POLICY: &str = "default-src 'self'; img-src 'self' blob: data:; object-src 'none'; base-uri 'none'; form-action 'none'; \
-    frame-ancestors 'none'";
-
 /// State that the handlers of all requests share.
 #[derive(Clone)]
 pub struct Desk {
@@ -37,6 +33,8 @@ pub struct Desk {
     pub host: Arc<SessionHost>,
     /// The rules of access.
     pub guard: Guard,
+    /// The header that says what a page may load, and who may show it in a frame.
+    pub policy: HeaderValue,
 }
 
 /// Router of all requests, behind the checks of access.
@@ -80,8 +78,8 @@ async fn guard(State(desk): State<Desk>, request: Request, next: Next) -> Respon
     }
     let mut response = next.run(request).await;
     let headers = response.headers_mut();
+    headers.insert(header::CONTENT_SECURITY_POLICY, desk.policy);
     for (name, value) in [
-        (header::CONTENT_SECURITY_POLICY, POLICY),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::REFERRER_POLICY, "no-referrer"),
         (header::CACHE_CONTROL, "no-cache"),

@@ -1,6 +1,7 @@
 //! Options of the viewer, and the instrument that they specify.
 
 use crate::compute::Responder;
+use crate::framing::Origin;
 use crate::simulation::{Follow, PULSES, RealDevice, Spec};
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -37,6 +38,8 @@ pub struct View {
     pub address: SocketAddr,
     /// Token that the page's URL must hold; `None` where only this machine can connect.
     pub token: Option<String>,
+    /// Origins whose pages may show the viewer's page in a frame; without any it cannot be framed.
+    pub framed_by: Vec<Origin>,
     /// Folder for libraries that are calibrated from the page.
     pub folder: PathBuf,
     /// Whether to print nothing about requests that are refused.

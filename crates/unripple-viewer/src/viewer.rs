@@ -1,6 +1,7 @@
 //! The viewer: a server of pages that listens, and ends when it is told to.
 
 use crate::door::listen;
+use crate::framing::policy;
 use crate::guard::Guard;
 use crate::host::SessionHost;
 use crate::server::{Desk, router};
@@ -36,7 +37,8 @@ impl View {
         let address = listener.local_addr().map_err(|error| refused(&error))?;
         let guard = Guard::new(address, self.token.clone());
         let host = SessionHost::open(&self, guard.elsewhere())?;
-        Ok(Viewer { listener, desk: Desk { host, guard }, runtime })
+        let desk = Desk { host, guard, policy: policy(&self.framed_by) };
+        Ok(Viewer { listener, desk, runtime })
     }
 }
 

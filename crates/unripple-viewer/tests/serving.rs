@@ -6,6 +6,7 @@ use common::{Served, status, until};
 use std::time::{Duration, Instant};
 use tungstenite::Message;
 use unripple::core::Random;
+use unripple_viewer::Origin;
 
 #[test]
 fn strangers_are_turned_away() {
@@ -31,6 +32,38 @@ fn strangers_are_turned_away() {
     let guarded = Served::new(Some("abcdef123456"));
     assert_eq!(status(&guarded.get("/", "")), 403);
     assert_eq!(status(&guarded.get("/?token=abcdef123456", "")), 200);
+}
+
+/// The directive of an answer that says who may frame it.
+fn ancestors(answer: &str) -> String {
+    let lines = answer.lines().filter_map(|line| line.split_once(": "));
+    let mut policies = lines.filter(|(name, _)| name.eq_ignore_ascii_case("content-security-policy"));
+    let (_, policy) = policies.next().unwrap();
+    assert!(policies.next().is_none(), "{answer}");
+    let mut directives = policy.split("; ").filter(|directive| directive.starts_with("frame-ancestors "));
+    let found = directives.next().unwrap().to_owned();
+    assert!(directives.next().is_none(), "{policy}");
+    found
+}
+
+#[test]
+fn only_pages_that_are_named_may_frame_the_page() {
+    let served = Served::new(None);
+    for path in ["/", "/assets/app.js", "/surface.toml", "/no-such-file"] {
+        assert_eq!(ancestors(&served.get(path, "")), "frame-ancestors 'none'", "{path}");
+    }
+    let named = ["http://localhost:*", "https://lab.example"].map(|text| text.parse::<Origin>().unwrap());
+    let framed = Served::with(Some("abcdef123456"), |view| view.framed_by = named.to_vec());
+    let answer =
+        framed.get("/?token=abcdef123456", "Sec-Fetch-Dest: iframe\r\nSec-Fetch-Site: cross-site\r\n");
+    assert_eq!(status(&answer), 200);
+    assert_eq!(ancestors(&answer), "frame-ancestors http://localhost:* https://lab.example");
+    assert!(!answer.to_lowercase().contains("set-cookie"), "{answer}");
+    // Whoever may frame the page may nothing else: neither open it without the token, nor speak for it.
+    assert_eq!(status(&framed.get("/", "")), 403);
+    assert_eq!(status(&framed.get("/?token=abcdef123456", "Origin: http://localhost:8888\r\n")), 403);
+    assert_eq!(framed.join("http://localhost:8888").unwrap_err(), 403);
+    assert_eq!(framed.join("https://lab.example").unwrap_err(), 403);
 }
 
 #[test]

@@ -31,6 +31,10 @@ pub struct ViewOptions {
     /// The token, 8 to 64 letters and digits; by default a new one each time.
     #[arg(long, value_name = "TOKEN", help_heading = heading::NETWORK)]
     pub token: Option<String>,
+    /// Let pages of this origin show the page in a frame: scheme://host[:port], where the port of localhost and 127.0.0.1 may be *,
+    /// as for JupyterLab on this machine. Repeatable. By default no page may.
+    #[arg(long, value_name = "ORIGIN", help_heading = heading::NETWORK)]
+    pub framed_by: Vec<String>,
     /// Do not open a browser.
     #[arg(long, help_heading = heading::NETWORK)]
     pub no_browser: bool,

@@ -26,6 +26,8 @@ pub struct Ask {
     pub port: u16,
     /// The token, 8 to 64 letters and digits; by default a new one each time.
     pub token: Option<String>,
+    /// Origins, `scheme://host[:port]`, whose pages may show this page in a frame; without them none may.
+    pub framed_by: Vec<String>,
     /// Folder for libraries that are calibrated from the page.
     pub folder: PathBuf,
     /// Seconds to serve; without it until cancelled.
@@ -43,6 +45,7 @@ impl Default for Ask {
             // Beside those that people's other servers take: 8000, 8080, 8888.
             port: 8417,
             token: None,
+            framed_by: Vec::new(),
             folder: ".".into(),
             seconds: None,
         }

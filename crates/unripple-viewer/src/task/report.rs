@@ -9,6 +9,8 @@ pub struct Report {
     pub url: String,
     /// URL for other machines of the network; `None` if only this machine can connect.
     pub elsewhere: Option<String>,
+    /// Origins whose pages may show this page in a frame.
+    pub framed_by: Vec<String>,
 }
 
 impl unripple_tasks::Report for Report {

@@ -3,7 +3,7 @@
 use super::{Ask, Report};
 use crate::compute::Responder;
 use crate::simulation::Follow;
-use crate::{View, ViewError, Viewer, pause};
+use crate::{Origin, View, ViewError, Viewer, pause};
 use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -49,6 +49,11 @@ impl From<ViewError> for TaskError {
 /// })?;
 /// assert!(heard.starts_with("http://127.0.0.1:"));
 /// assert_eq!(report.elsewhere, None);
+///
+/// // Who may frame the page is an origin, and nothing more.
+/// let ask = Ask { framed_by: vec!["http://localhost:8888/lab".into()], ..ask };
+/// let refused = run(&ask, &mut Silent, &mut |_| Ok(())).unwrap_err().to_string();
+/// assert!(refused.contains("framed_by") && refused.contains("expected scheme://host[:port]"), "{refused}");
 /// # Ok::<(), unripple_tasks::TaskError>(())
 /// ```
 ///
@@ -66,7 +71,8 @@ pub fn run(
     // The modes of a surface that needs a mesh take seconds, in which nothing asks whether to go on.
     let viewer = apart(ask.clone(), open, progress)?;
     go_on(progress)?;
-    let report = Report { url: viewer.url(), elsewhere: viewer.elsewhere() };
+    let (url, elsewhere) = (viewer.url(), viewer.elsewhere());
+    let report = Report { url, elsewhere, framed_by: ask.framed_by.clone() };
     opened(&report)?;
     viewer.serve(until(progress, ask.seconds))?;
     Ok(report)
@@ -74,7 +80,7 @@ pub fn run(
 
 /// Makes the surface ready, and listens.
 fn open(ask: &Ask, progress: &mut dyn Progress) -> Result<Viewer, TaskError> {
-    let token = token(ask)?;
+    let (token, framed_by) = (token(ask)?, origins(ask)?);
     let follow = follow(ask)?;
     let source = source::open(&ask.surface, progress)?;
     let view = View {
@@ -89,6 +95,7 @@ fn open(ask: &Ask, progress: &mut dyn Progress) -> Result<Viewer, TaskError> {
         device_name: ask.device.device.name().into(),
         address: SocketAddr::new(ask.listen, ask.port),
         token,
+        framed_by,
         folder: ask.folder.clone(),
         quiet: false,
     };
@@ -146,6 +153,17 @@ fn token(ask: &Ask) -> Result<Option<String>, TaskError> {
     let mut bytes = [0; TOKEN];
     getrandom::fill(&mut bytes).map_err(TaskError::work)?;
     Ok(Some(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
+}
+
+/// The origins that may frame the page.
+fn origins(ask: &Ask) -> Result<Vec<Origin>, TaskError> {
+    let read = |text: &String| {
+        text.parse().map_err(|error| match error {
+            ViewError::Range { what, expected, found } => TaskError::ask(what, expected, found),
+            error => error.into(),
+        })
+    };
+    ask.framed_by.iter().map(read).collect()
 }
 
 /// Is over when the task is cancelled, or after so many seconds.

@@ -40,6 +40,7 @@ impl Served {
             device_name: "virtual".into(),
             address: ([127, 0, 0, 1], 0).into(),
             token: token.map(str::to_owned),
+            framed_by: Vec::new(),
             folder: std::env::temp_dir(),
             quiet: true,
         };
