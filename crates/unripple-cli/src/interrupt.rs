@@ -1,4 +1,4 @@
-//! Handling of Ctrl+C and other signals that end the program, so that nothing unfinished is left behind.
+//! Handling of Ctrl+C and other signals that end the program, so that nothing unfinished is left behind; and of the end of its input.
 
 use crate::error::CliError;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
@@ -33,7 +33,7 @@ fn each(act: impl FnMut(i32) + Send + 'static) -> Result<(), CliError> {
     let wishes =
         [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP));
     let mut signals = signal_hook::iterator::Signals::new(wishes).map_err(CliError::work)?;
-    beside(move || signals.forever().for_each(act))
+    beside("signals", move || signals.forever().for_each(act))
 }
 
 /// How often a system that can only count signals is asked for them: too short a wait to be noticed.
@@ -48,7 +48,7 @@ fn each(mut act: impl FnMut(i32) + Send + 'static) -> Result<(), CliError> {
     for signal in [SIGINT, SIGTERM] {
         signal_hook::flag::register_usize(signal, came.clone(), signal as usize).map_err(CliError::work)?;
     }
-    beside(move || {
+    beside("signals", move || {
         loop {
             match came.swap(0, Ordering::Relaxed) {
                 0 => std::thread::sleep(LOOK),
@@ -59,9 +59,20 @@ fn each(mut act: impl FnMut(i32) + Send + 'static) -> Result<(), CliError> {
 }
 
 /// Does `work` on a thread of its own, which nothing waits for.
-fn beside(work: impl FnOnce() + Send + 'static) -> Result<(), CliError> {
-    std::thread::Builder::new().name("signals".into()).spawn(work).map_err(CliError::work)?;
+fn beside(name: &str, work: impl FnOnce() + Send + 'static) -> Result<(), CliError> {
+    std::thread::Builder::new().name(name.into()).spawn(work).map_err(CliError::work)?;
     Ok(())
+}
+
+/// Sets the flag of [`wished`] when standard input ends, for a command that then stops by itself: a pipe ends when the last program that
+/// holds its other end is gone, also one that was killed.
+pub fn wish_when_input_ends() -> Result<(), CliError> {
+    let wished = wished();
+    beside("input", move || {
+        // Nobody reads what comes; what cannot be read has ended.
+        let _ = std::io::copy(&mut std::io::stdin().lock(), &mut std::io::sink());
+        wished.store(true, Ordering::Release);
+    })
 }
 
 /// Ends the program as a signal would.

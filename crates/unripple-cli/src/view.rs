@@ -3,6 +3,7 @@
 use crate::args::ViewOptions;
 use crate::common::Common;
 use crate::error::CliError;
+use crate::interrupt;
 use crate::output;
 use crate::progress::Terminal;
 use std::net::{IpAddr, Ipv4Addr};
@@ -25,6 +26,9 @@ pub fn run(options: &ViewOptions, common: &Common) -> Result<(), CliError> {
         seconds: options.seconds,
     };
     let record = output::record(common.json, &ask)?;
+    if options.until_input_ends {
+        interrupt::wish_when_input_ends()?;
+    }
     task::run(&ask, &mut Terminal::that_stops(), &mut |report| {
         output::recorded(report, record.as_ref()).map_err(TaskError::work)?;
         eprintln!("open the address in a browser; Ctrl+C ends");
@@ -39,5 +43,10 @@ pub fn run(options: &ViewOptions, common: &Common) -> Result<(), CliError> {
 /// Opens an address in the browser of whoever sits here; that there is none is no fault.
 fn browse(url: &str) {
     let opener = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
-    let _ = Command::new(opener).arg(url).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+    let _ = Command::new(opener)
+        .arg(url)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
 }

@@ -40,6 +40,7 @@ mod skip;
 mod takes;
 mod tape;
 mod trusted;
+mod until_input_ends;
 mod waveforms;
 mod window;
 #[path = "../../../unripple/tests/window_common/mod.rs"]
