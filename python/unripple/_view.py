@@ -98,11 +98,13 @@ class View:
         # What the child says when it fails, and the file of a surface that has none.
         self._room = tempfile.TemporaryDirectory(prefix="unripple-")
         said = Path(self._room.name, "said.txt")
-        typed = [_named(surface, self._room.name), "--no-browser", *_typed({"port": 0, **given})]
+        typed = [_named(surface, self._room.name), "--no-browser", "--until-input-ends"]
+        typed += _typed({"port": 0, **given})
         with open(said, "wb") as errors:
             self._child = subprocess.Popen(
                 [sys.executable, "-m", "unripple", "view", *typed],
-                stdin=subprocess.DEVNULL,
+                # It ends with this process, which may be killed before it can end anything.
+                stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=errors,
                 text=True,
@@ -183,8 +185,9 @@ def _end(child: subprocess.Popen[str], room: tempfile.TemporaryDirectory[str]) -
         except subprocess.TimeoutExpired:
             child.kill()
             child.wait()
-    if child.stdout is not None:
-        child.stdout.close()
+    for pipe in (child.stdin, child.stdout):
+        if pipe is not None:
+            pipe.close()
     room.cleanup()
 
 
