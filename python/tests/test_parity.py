@@ -10,7 +10,7 @@ import parity
 import pytest
 
 import unripple as ur
-from unripple import _options, _unripple
+from unripple import _options, _unripple, _view
 from unripple._report import Part, Report
 
 #: Options of the command line that are no options of a task: how its results are printed.
@@ -66,6 +66,13 @@ def test_each_command_of_the_command_line_is_here(program: str) -> None:
     assert len(listed) > 15
     assert listed - _NO_TASKS <= set(_unripple.commands())
     assert hasattr(ur.Surface, "view")
+
+
+def test_each_option_of_the_page_is_here(program: str) -> None:
+    of_devices = {option.name for option in _options.OPTIONS["doctor"] if option.field.startswith("device")}
+    # `browser` says the opposite of the one, and the other is how the page ends with Python.
+    known = {*_view._OPTIONS, *of_devices, "no_browser", "until_input_ends"}
+    assert _said_options(program, "view") - known == set()
 
 
 @pytest.mark.parametrize("command", sorted(set(_unripple.commands()) - {"waveform", "stroke"}))

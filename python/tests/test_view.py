@@ -1,4 +1,4 @@
-"""The page that a child process serves: it ends with Python."""
+"""The page that a child process serves: who may frame it, how a notebook shows it, and that it ends with Python."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ import subprocess
 import sys
 import time
 import urllib.request
+import webbrowser
 from pathlib import Path
 
 import pytest
 
 import unripple as ur
+from unripple import _view
 
 #: Within how long after Python the server ends, in s: it looks ten times a second, and the machine may be busy.
 _AT_MOST = 20.0
@@ -26,6 +28,21 @@ view = ur.View(ur.Surface("hudin-2012", band_hz=[0, 300]), browser=False)
 print(view._child.pid, view.url, flush=True)
 time.sleep(600)
 """
+
+
+@pytest.fixture
+def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The addresses for which a browser would have been opened."""
+    addresses: list[str] = []
+    monkeypatch.setattr(webbrowser, "open", addresses.append)
+    return addresses
+
+
+def _policy(view: ur.View) -> str:
+    """The header that tells a browser who may frame the page."""
+    with urllib.request.urlopen(view.url, timeout=60) as answer:
+        policy: str = answer.headers["Content-Security-Policy"]
+    return policy
 
 
 def _answers(url: str) -> bool:
@@ -44,6 +61,47 @@ def _runs(process: int) -> bool:
         return False
     stat = Path(f"/proc/{process}/stat")
     return not (stat.exists() and stat.read_text(encoding="utf-8").rpartition(") ")[2].startswith("Z"))
+
+
+def test_nobody_frames_the_page_unless_it_is_said(film: ur.Surface, opened: list[str]) -> None:
+    with film.view() as view:
+        assert view.framed_by == ()
+        assert _policy(view).endswith("; frame-ancestors 'none'")
+        assert view.url in view._repr_html_() and "iframe" not in view._repr_html_()
+        assert opened == [view.url]
+
+
+def test_origins_that_are_named_may_frame_it(film: ur.Surface, opened: list[str]) -> None:
+    origins = ["https://lab.example", "http://localhost:8888"]
+    with film.view(framed_by=origins, token="abcdef123456", browser=False) as view:
+        assert view.framed_by == tuple(origins)
+        assert _policy(view).endswith("; frame-ancestors https://lab.example http://localhost:8888")
+        assert f'<iframe src="{view.url}"' in view._repr_html_()
+        assert view.url.endswith("?token=abcdef123456")
+    assert "iframe" not in view._repr_html_() and "closed" in view._repr_html_()
+    with film.view(framed_by="http://127.0.0.1:*", browser=False) as view:
+        assert _policy(view).endswith("; frame-ancestors http://127.0.0.1:*")
+    assert opened == []
+
+
+@pytest.mark.parametrize("origin", ["*", "http://localhost:8888/", "http://a;script-src *", "http://lab.example:*"])
+def test_what_is_no_origin_is_refused(film: ur.Surface, origin: str) -> None:
+    with pytest.raises(ur.InputError, match=r"--framed-by: expected scheme://host\[:port\]"):
+        film.view(framed_by=["http://localhost:8888", origin], browser=False)
+
+
+def test_a_notebook_of_this_machine_may_frame_it(
+    film: ur.Surface, opened: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(_view, "in_notebook", lambda: True)
+    with film.view() as view:
+        assert _policy(view).endswith("; frame-ancestors http://localhost:* http://127.0.0.1:*")
+        assert "<iframe" in view._repr_html_()
+    with film.view(framed_by=[]) as view:
+        assert _policy(view).endswith("; frame-ancestors 'none'")
+        assert "<iframe" not in view._repr_html_()
+    # The cell shows it.
+    assert opened == []
 
 
 @pytest.mark.clock

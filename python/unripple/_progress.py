@@ -166,7 +166,7 @@ def warn(text: str) -> None:
     warnings.warn(text, UnrippleWarning, stacklevel=depth)
 
 
-def _in_notebook() -> bool:
+def in_notebook() -> bool:
     """Tell whether this is a kernel of Jupyter, which shows standard error in its page."""
     kernel = sys.modules.get("ipykernel")
     return kernel is not None and hasattr(sys.stderr, "set_parent")
@@ -174,7 +174,7 @@ def _in_notebook() -> bool:
 
 def _may_draw() -> bool:
     """Tell whether somebody can see a bar on standard error."""
-    return sys.stderr is not None and (sys.stderr.isatty() or _in_notebook())
+    return sys.stderr is not None and (sys.stderr.isatty() or in_notebook())
 
 
 class _NoBar:
@@ -196,7 +196,7 @@ def _bar(stage: str) -> Any:
     if not _may_draw() or importlib.util.find_spec("tqdm") is None:
         return _NoBar()
     # Bars of notebooks need their widgets.
-    widgets = _in_notebook() and importlib.util.find_spec("ipywidgets") is not None
+    widgets = in_notebook() and importlib.util.find_spec("ipywidgets") is not None
     tqdm = importlib.import_module("tqdm.auto" if widgets else "tqdm").tqdm
     form = "{desc} {bar:40} {percentage:.0f} %, {remaining} left"
     return tqdm(total=_STEPS, desc=stage, leave=False, bar_format=None if widgets else form)

@@ -308,16 +308,16 @@ class Surface(Reporting, Focusing):
         return Player(self, effect, **options)
 
     def view(
-        self, drive: Drive | None = None, *, browser: bool = True, **options: Unpack[_types.ViewOptions]
+        self, drive: Drive | None = None, *, browser: bool | None = None, **options: Unpack[_types.ViewOptions]
     ) -> View:
-        """Show the surface in a browser: touch it, see its numbers, design it, compare methods; see :class:`View`.
+        """Show the surface in a browser or a notebook: touch it, see its numbers, design it, compare methods; see :class:`View`.
 
         Parameters
         ----------
         drive
             The page begins with the method of this drive; it computes and plays drives of its own. See :meth:`Field.plot` for this one.
         browser
-            Whether to open a browser.
+            Whether to open a browser; by default unless this is a notebook, whose cell shows the page.
 
         Returns
         -------

@@ -313,5 +313,6 @@ class ViewOptions(DeviceOptions, total=False):
     port: int | None
     listen: str | None
     token: str | None
+    framed_by: str | Sequence[str] | None
     folder: Path | None
     seconds: float | None

@@ -1,4 +1,4 @@
-"""The page of a surface in a browser, served by a child process."""
+"""The page of a surface in a browser or a notebook, served by a child process."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from typing import IO, TYPE_CHECKING, Any
 from unripple import _options, _values
 from unripple._drive import Drive
 from unripple._errors import InputError, OptionError, WorkError
+from unripple._progress import in_notebook
 from unripple._surface import Surface
 
 if TYPE_CHECKING:
@@ -25,16 +26,23 @@ if TYPE_CHECKING:
     from unripple import _types
 
 #: Options of the command beside those of its device.
-_OPTIONS = ("method", "follow_tension", "port", "listen", "token", "folder", "seconds", "set")
+_OPTIONS = ("method", "follow_tension", "port", "listen", "token", "framed_by", "folder", "seconds", "set")
+
+#: Origins whose pages may frame the page where this is a notebook's kernel: those of this machine, with any port, since a kernel is not told by
+#: which one its notebook is served. A page from there was served by a program on this machine, which can reach the page's server itself.
+_NOTEBOOKS = ("http://localhost:*", "http://127.0.0.1:*")
+
+#: Height of the frame in a notebook, in pixels: the surface and what is beside it, on most screens.
+_HEIGHT = 720
 
 #: Seconds for the child to end by itself before it is ended.
 _PATIENCE = 5.0
 
 
 class View:
-    """A surface in a browser: a child process that serves the page, until it is closed or Python ends.
+    """A surface in a browser or a notebook: a child process that serves the page, until it is closed or Python ends.
 
-    It is a context manager, which closes it.
+    It is a context manager, which closes it. As the result of a notebook's cell it shows the page there, in a frame, and its address above.
 
     Parameters
     ----------
@@ -43,11 +51,14 @@ class View:
     drive
         The page begins with the method of this drive; it computes and plays drives of its own.
     browser
-        Whether to open a browser.
+        Whether to open a browser; by default unless this is a notebook.
     method, follow_tension
         Method of focusing to begin with, and whether to follow the tension of the sheet.
     port, listen, token
         TCP port, by default any free one; address to listen at, and the token that other machines need.
+    framed_by
+        Origins, ``scheme://host[:port]``, whose pages may show the page in a frame. By default none, and in a notebook those of this
+        machine: ``http://localhost:*`` and ``http://127.0.0.1:*``. An empty list lets nobody frame it; the cell then shows its address.
     folder
         Folder for libraries that are calibrated from the page, by default the current one.
     seconds
@@ -59,6 +70,8 @@ class View:
     ----------
     url : str
         Address for a browser on this machine.
+    framed_by : tuple of str
+        Origins whose pages may show the page in a frame.
 
     Raises
     ------
@@ -80,7 +93,7 @@ class View:
         surface: _types.SurfaceLike = "hudin-2012",
         drive: Drive | None = None,
         *,
-        browser: bool = True,
+        browser: bool | None = None,
         **options: Unpack[_types.ViewOptions],
     ) -> None:
         # Loaded here, since few need them.
@@ -95,11 +108,13 @@ class View:
             method = drive.report.get("method") if drive.report is not None else None
             if method in ("time-reversal", "one-bit", "inverse", "concentrate", "limited", "robust", "felt"):
                 given.setdefault("method", method)
+        framing = given.pop("framed_by", _NOTEBOOKS if in_notebook() else ())
+        self.framed_by = tuple(_values.texts("framed_by", framing))
         # What the child says when it fails, and the file of a surface that has none.
         self._room = tempfile.TemporaryDirectory(prefix="unripple-")
         said = Path(self._room.name, "said.txt")
-        typed = [_named(surface, self._room.name), "--no-browser", "--until-input-ends"]
-        typed += _typed({"port": 0, **given})
+        settings = {"port": 0, "framed_by": self.framed_by, **given}
+        typed = [_named(surface, self._room.name), "--no-browser", "--until-input-ends", *_typed(settings)]
         with open(said, "wb") as errors:
             self._child = subprocess.Popen(
                 [sys.executable, "-m", "unripple", "view", *typed],
@@ -115,7 +130,7 @@ class View:
         self._end = weakref.finalize(self, _end, self._child, self._room)
         self.url = self._listened(said)
         _OPEN.add(self)
-        if browser:
+        if browser or (browser is None and not in_notebook()):
             webbrowser.open(self.url)
 
     def _listened(self, said: Path) -> str:
@@ -165,9 +180,15 @@ class View:
         return f"<View {self.url}{', closed' if self.closed else ''}>"
 
     def _repr_html_(self) -> str:
-        # The page refuses to be shown inside another, which could press its buttons.
+        if self.closed:
+            return f"<p>{html.escape(repr(self))}</p>"
         address = html.escape(self.url, quote=True)
-        return f'<a href="{address}" target="_blank">{address}</a>'
+        link = f'<p><a href="{address}" target="_blank" rel="noopener">{address}</a></p>'
+        if not self.framed_by:
+            return link
+        # Beside what any page may do, this one copies messages.
+        frame = f'<iframe src="{address}" title="Unripple" allow="clipboard-write"'
+        return f'{link}\n{frame} style="width: 100%; height: {_HEIGHT}px; border: 0"></iframe>'
 
 
 # Pages that are served: one that nobody keeps is not to vanish from the browser.
@@ -220,6 +241,8 @@ def _typed(options: Mapping[str, Any]) -> list[str]:
 
 
 def _texts(name: str, value: Any) -> list[str]:
+    if name == "framed_by":
+        return list(value)
     if name == "set":
         from unripple import _keys
 
