@@ -118,6 +118,12 @@ class Call:
         """The ask as JSON."""
         return json.dumps(self.ask, allow_nan=False)
 
+    @property
+    def goes_on(self) -> bool:
+        """Whether only an interrupt ends it: playing without a time or a recorded session."""
+        lasts = self.ask.get("seconds"), self.ask.get("touch", {}).get("session")
+        return self.command == "play" and lasts == (None, None)
+
     def perform(self, work: Callable[[Telling, int | None], _Done]) -> _Done:
         """Do the work of a call, with its progress; an error about a field names the option that set it."""
         try:
@@ -139,11 +145,23 @@ def focusing(options: Mapping[str, object]) -> str:
 
 
 def run(command: str, options: Mapping[str, object]) -> _unripple.Done:
-    """Do a command by its name, as the command line has it."""
+    """Do a command by its name, as the command line has it.
+
+    What has been played when an interrupt comes is returned where only that ends it; otherwise its report is an attribute of the exception.
+    """
     if _values.text("command", command) == "focus":
         command = focusing(options)
     call = Call(command, options)
-    return call.perform(lambda telling, threads: _unripple.run(command, call.json, telling, threads))
+    try:
+        return call.perform(lambda telling, threads: _unripple.run(command, call.json, telling, threads))
+    except KeyboardInterrupt as interrupt:
+        played: _unripple.Done | None = vars(interrupt).pop("done", None)
+        if played is None:
+            raise
+        if call.goes_on:
+            return played
+        vars(interrupt)["report"] = Report._of(played)
+        raise
 
 
 def report(command: str, options: Mapping[str, Any], **more: Any) -> Report:

@@ -176,6 +176,8 @@ def drift(surface: _types.SurfaceLike, **options: Unpack[_types.DriftOptions]) -
 def play(surface: _types.SurfaceLike, **options: Unpack[_types.PlayOptions]) -> Report:
     """Drive a surface live: touches in, waves out; see :meth:`Surface.play`.
 
+    Where neither ``seconds`` nor ``session`` ends it, Ctrl+C does (in a notebook, *Interrupt the kernel*), and the report is returned.
+
     Parameters
     ----------
     surface
@@ -186,6 +188,13 @@ def play(surface: _types.SurfaceLike, **options: Unpack[_types.PlayOptions]) -> 
     Returns
     -------
     Report
+        On what was played, up to the end or the interrupt.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        Of Ctrl+C before the end that ``seconds`` or ``session`` sets; its attribute ``report`` is the report on what was played until then.
+        Without that attribute where nothing was played yet.
 
     Examples
     --------

@@ -2,12 +2,13 @@
 
 use crate::error::raised;
 use crate::progress::{brief, work, work_to_its_end};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use serde_json::Value;
 use std::ffi::OsString;
 use unripple_store::{BUILTINS, builtin_effects};
 use unripple_tasks::record::Request;
-use unripple_tasks::{Progress, Record, Report, TaskError, play};
+use unripple_tasks::{Progress, Record, Report, TaskError, play, rerun};
 
 /// What a task has done: its report, as JSON and as text.
 #[pyclass(frozen, module = "unripple._unripple")]
@@ -74,7 +75,8 @@ pub(crate) fn default_ask(py: Python<'_>, command: &str) -> PyResult<String> {
 /// Does a task by its name. `ask` is JSON, in SI units; fields that it leaves out have their defaults.
 ///
 /// `progress` has the methods stage(what), done(share) and tell(line), or is None. `threads` is the number of threads that the task computes
-/// on; None: one for each core. The task `play` chooses its threads itself, and ends at a signal with all its files written.
+/// on; None: one for each core. The task `play`, also where `rerun` does it again, chooses its threads itself, and ends at a signal with all
+/// its files written: the KeyboardInterrupt that is raised then has what was played as its attribute `done`.
 #[pyfunction]
 #[pyo3(signature = (command, ask, progress=None, threads=None))]
 pub(crate) fn run(
@@ -85,11 +87,25 @@ pub(crate) fn run(
     threads: Option<usize>,
 ) -> PyResult<Done> {
     let ask = json(ask).map_err(|error| raised(py, error))?;
-    let done = match command == play::Ask::COMMAND {
-        true => work_to_its_end(py, progress, named(command, ask)),
-        false => work(py, progress, threads, named(command, ask)),
-    };
-    done.map(Done)
+    if !plays(&command, &ask) {
+        return work(py, progress, threads, named(command, ask)).map(Done);
+    }
+    let (played, exception) = work_to_its_end(py, progress, named(command, ask))?;
+    let Some(exception) = exception else { return Ok(Done(played)) };
+    // Other exceptions are somebody's own, to whose attributes nothing is added.
+    if exception.is_instance_of::<PyKeyboardInterrupt>(py) {
+        exception.value(py).setattr("done", Done(played))?;
+    }
+    Err(exception)
+}
+
+/// Whether a task plays, and so ends at a signal with a report.
+fn plays(command: &str, ask: &Value) -> bool {
+    // What cannot be read is refused by the task itself.
+    let again =
+        || unripple_tasks::commands::asked::<rerun::Ask>(ask.clone()).and_then(|ask| rerun::record(&ask));
+    command == play::Ask::COMMAND
+        || command == rerun::Ask::COMMAND && again().is_ok_and(|record| record.command == play::Ask::COMMAND)
 }
 
 /// The task of that name with an ask, as work to do.

@@ -29,7 +29,7 @@ pub(crate) fn work<R: Send + 'static>(
     work: impl FnOnce(&mut dyn Progress) -> Result<R, TaskError> + Send + 'static,
 ) -> PyResult<R> {
     let pool = threads::pool(threads).map_err(|error| raised(py, error))?;
-    followed(py, progress, move |reported| {
+    let (result, exception) = followed(py, progress, move |reported| {
         WORK.run(
             move |progress| match pool {
                 Some(pool) => pool.install(|| work(progress)),
@@ -37,20 +37,28 @@ pub(crate) fn work<R: Send + 'static>(
             },
             reported,
         )
-    })
+    });
+    match exception {
+        Some(exception) => Err(exception),
+        None => result.map_err(|error| raised(py, error)),
+    }
 }
 
 /// Does work that ends by itself within 0.2 s after a cancellation, and still has a result then, such as playing: as [`work`], but on this
-/// thread, and the result is awaited.
+/// thread, and the result is awaited. It comes with the exception that cancelled the work, if one did.
 ///
 /// # Errors
-/// As those of [`work`].
+/// As those of [`work`], where there is no result.
 pub(crate) fn work_to_its_end<R: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&mut dyn Progress) -> Result<R, TaskError> + Send,
-) -> PyResult<R> {
-    followed(py, progress, move |reported| caught(|| work(reported)))
+) -> PyResult<(R, Option<PyErr>)> {
+    match followed(py, progress, move |reported| caught(|| work(reported))) {
+        (Ok(result), exception) => Ok((result, exception)),
+        (Err(_), Some(exception)) => Err(exception),
+        (Err(error), None) => Err(raised(py, error)),
+    }
 }
 
 /// Does work on this thread with the GIL released, without progress and cancellation.
@@ -64,22 +72,19 @@ pub(crate) fn brief<R: Send>(
     py.detach(|| caught(work)).map_err(|error| raised(py, error))
 }
 
-/// Does `work` with the GIL released and a progress that reports to an object of Python; raises what that raised.
+/// Does `work` with the GIL released and a progress that reports to an object of Python. Gives what came of it, and what that object or the
+/// handler of a signal raised.
 fn followed<R: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&mut Reported<'_>) -> Result<R, TaskError> + Send,
-) -> PyResult<R> {
+) -> (Result<R, TaskError>, Option<PyErr>) {
     let to = progress.as_ref();
-    let (result, exception) = py.detach(move || {
+    py.detach(move || {
         let mut reported = Reported { to, exception: RefCell::new(None), looked: Cell::new(Instant::now()) };
         let result = work(&mut reported);
         (result, reported.exception.into_inner())
-    });
-    match exception {
-        Some(exception) => Err(exception),
-        None => result.map_err(|error| raised(py, error)),
-    }
+    })
 }
 
 /// Progress that is told to an object of Python, on the thread that called.
