@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from unripple import _call, _unripple, _values
+from unripple import _call, _values
 from unripple._drive import Drive, floats
 from unripple._errors import AskError
 from unripple._field import Field
@@ -54,13 +54,12 @@ def field(responses: Responses, driven: object, options: Mapping[str, Any]) -> F
 
 
 def _run(responses: Responses, call: _call.Call) -> Report:
-    """Do a task by its name, on what responses are of."""
-    named = responses._named
-    if named is None:
+    """Have a task fill its folder, from responses of what can be named in the record of the folder."""
+    if responses._named is None:
         expected = "responses of a surface in its own band, or of a library"
         raise AskError(field="output", expected=expected, found=f"others, of {responses.source}")
-    call.ask["surface"] = named if isinstance(named, str) else named.as_ask()
-    done = call.perform(lambda telling, threads: _unripple.run(call.command, call.json, telling, threads))
+    raw = responses._raw
+    done = call.perform(lambda telling, threads: raw.run(call.command, call.json, telling, threads))
     return Report._of(done)
 
 

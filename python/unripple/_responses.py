@@ -74,7 +74,7 @@ class Responses(Focusing):
     ) -> Responses:
         """Make responses of those that the library has made.
 
-        `made` is how they are made again; `named` is the surface or the path from which a task makes the same, if there is one.
+        `made` is how they are made again; `named` is the surface or the library from which a task by itself makes the same, if there is one.
         """
         responses = cls.__new__(cls)
         responses._raw, responses._made, responses._named = raw, made, named

@@ -136,6 +136,9 @@ class Responses:
     def field(
         self, ask: str, drive: Drive, progress: _Progress | None = None, threads: int | None = None
     ) -> Field: ...
+    def run(
+        self, command: str, ask: str, progress: _Progress | None = None, threads: int | None = None
+    ) -> Done: ...
 
 @final
 class Focused:

@@ -4,6 +4,7 @@ mod array;
 mod held;
 
 use crate::arrays::{moved, places, points, shared, singles};
+use crate::commands::Done;
 use crate::drive::Drive;
 use crate::error::raised;
 use crate::field::Field;
@@ -19,7 +20,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use unripple::core::{Pole, SampledResponses};
 use unripple_tasks::record::Request;
-use unripple_tasks::{Progress, TaskError};
+use unripple_tasks::{Progress, TaskError, field, focus, stroke, waveform};
 
 /// Impulse responses from the actuators of a surface to its points: as the modes of a model, or as samples. Immutable.
 ///
@@ -325,6 +326,40 @@ impl Responses {
         let drive = unripple::core::Drive::clone(drive.get().inner()).as_emitted();
         let run = move |held: &Held, ask, progress: &mut dyn Progress| held.field(ask, &drive, progress);
         Ok(Field::of(self.task(py, ask, (progress, threads), run)?))
+    }
+
+    /// Does a task that fills a folder: "focus", "waveform", "stroke" or "field". `ask` is that of the task, as JSON in SI units; its surface is
+    /// these responses, as they are held here: nothing is read again.
+    ///
+    /// Raises what the task raises, and AskError of another task.
+    #[pyo3(signature = (command, ask, progress=None, threads=None))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        command: &str,
+        ask: &str,
+        progress: Option<Py<PyAny>>,
+        threads: Option<usize>,
+    ) -> PyResult<Done> {
+        let call = (progress, threads);
+        match command {
+            focus::Ask::COMMAND => self.task(py, ask, call, |held, ask: focus::Ask, progress| {
+                held.fill(ask, |ask| &mut ask.surface, focus::run_on, progress)
+            }),
+            waveform::Ask::COMMAND => self.task(py, ask, call, |held, ask: waveform::Ask, progress| {
+                held.fill(ask, |ask| &mut ask.surface, waveform::run_on, progress)
+            }),
+            stroke::Ask::COMMAND => self.task(py, ask, call, |held, ask: stroke::Ask, progress| {
+                held.fill(ask, |ask| &mut ask.surface, stroke::run_on, progress)
+            }),
+            field::Ask::COMMAND => self.task(py, ask, call, |held, ask: field::Ask, progress| {
+                held.fill(ask, |ask| &mut ask.surface, field::run_on, progress)
+            }),
+            _ => {
+                let expected = "focus, waveform, stroke or field";
+                Err(crate::error::ask(py, "command", expected, format!("`{command}`")))
+            }
+        }
     }
 }
 

@@ -15,8 +15,8 @@ use unripple_tasks::figures::Columns;
 use unripple_tasks::record::Request;
 use unripple_tasks::respond::MOST_VALUES;
 use unripple_tasks::{
-    Place, Progress, Record, Solved, Source, SurfaceAsk, TaskError, between, field, fingers, focus, go_on,
-    point, source, stroke, waveform,
+    Place, Progress, Record, Report, Solved, Source, SurfaceAsk, TaskError, between, field, fingers, focus,
+    go_on, point, source, stroke, waveform,
 };
 
 /// Responses, and what they are of.
@@ -36,8 +36,13 @@ enum Origin {
         /// Fingers that rest on the surface, in m.
         fingers: Vec<Place>,
     },
-    /// From a library, by the path of its folder.
-    Library(String),
+    /// From a library.
+    Library {
+        /// The path of its folder as it was given, which reports name.
+        name: String,
+        /// The same from the root, by which the library is found after the current folder has changed.
+        path: String,
+    },
     /// From an array; whether its surface is made up.
     Array { made_up: bool },
 }
@@ -66,9 +71,11 @@ impl Held {
         if !Library::is_at(path) {
             return Err(TaskError::Input(format!("{name}: expected a library of responses, found none")));
         }
+        let whole =
+            std::path::absolute(path).map_err(|error| TaskError::Input(format!("{name}: {error}")))?;
         let source = source::open(&SurfaceAsk::Name(name.clone()), progress)?;
         go_on(progress)?;
-        Self::sampled(source, Origin::Library(name))
+        Self::sampled(source, Origin::Library { name, path: whole.display().to_string() })
     }
 
     /// The responses of an array.
@@ -113,7 +120,7 @@ impl Held {
     pub fn told(&self) -> &str {
         match &self.origin {
             Origin::Surface { .. } => &self.source.surface.name,
-            Origin::Library(path) => path,
+            Origin::Library { name, .. } => name,
             Origin::Array { .. } => "array",
         }
     }
@@ -241,7 +248,7 @@ impl Held {
         }
         let record = match &self.origin {
             Origin::Array { .. } => None,
-            Origin::Surface { .. } | Origin::Library(_) => {
+            Origin::Surface { .. } | Origin::Library { .. } => {
                 let channels = drive.channels().to_vec();
                 let recorded = DriveAsk::Samples { channels, rate_hz: drive.rate() };
                 Some(Record::of(&field::Ask { drive: recorded, ..ask.clone() })?)
@@ -255,6 +262,20 @@ impl Held {
         Ok(Seen { done, draw: draw(made.clone(), columns, field::figures), made })
     }
 
+    /// Does a task on these responses that fills a folder. Its ask names a surface at `surface`.
+    pub fn fill<A: Request, R: Report>(
+        &self,
+        mut ask: A,
+        surface: fn(&mut A) -> &mut SurfaceAsk,
+        run: fn(&A, Source, &mut dyn Progress) -> Result<R, TaskError>,
+        progress: &mut dyn Progress,
+    ) -> Result<Done, TaskError> {
+        self.name(surface(&mut ask));
+        // Before the work, as tasks by name make it: files may change meanwhile.
+        let record = Record::of(&ask)?;
+        Done::of(&run(&ask, self.source.clone(), progress)?, Some(&record))
+    }
+
     /// Whether the surface is made up, so that nobody knows its sheet.
     fn is_made_up(&self) -> bool {
         matches!(self.origin, Origin::Array { made_up: true })
@@ -264,7 +285,7 @@ impl Held {
     fn name(&self, surface: &mut SurfaceAsk) {
         match &self.origin {
             Origin::Surface { named, .. } => surface.clone_from(named),
-            Origin::Library(path) => *surface = SurfaceAsk::Name(path.clone()),
+            Origin::Library { path, .. } => *surface = SurfaceAsk::Name(path.clone()),
             Origin::Array { .. } => {}
         }
     }
@@ -296,7 +317,7 @@ impl Held {
             Origin::Surface { max_hz, fingers, .. } => {
                 fingers.is_empty() && max_hz.is_none_or(|hz| hz == self.surface().emission.band[1])
             }
-            Origin::Library(_) => true,
+            Origin::Library { .. } => true,
             Origin::Array { .. } => false,
         };
         same.then(|| Record::of(ask)).transpose()

@@ -15,9 +15,30 @@ use unripple_store::read_wav;
 /// # Errors
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    kept(ask, |progress| open(ask, progress), progress)
+}
+
+/// Does what [`run()`] does, on a surface or responses that are given instead of those that the ask names; the record of the folder holds the ask.
+///
+/// # Errors
+/// Those of [`run()`], but for those of reading them.
+pub fn run_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let given = |_: &mut dyn Progress| {
+        check(ask)?;
+        driven(ask, source)
+    };
+    kept(ask, given, progress)
+}
+
+/// Measures what a drive does to what `open` gives with it, and keeps that in a folder if one is given.
+fn kept(
+    ask: &Ask,
+    open: impl FnOnce(&mut dyn Progress) -> Result<(Source, Drive), TaskError>,
+    progress: &mut dyn Progress,
+) -> Result<Report, TaskError> {
     Columns::of(ask.columns)?;
     let out = folder::begin(ask.output.as_deref(), ask)?;
-    let (source, drive) = open(ask, progress)?;
+    let (source, drive) = open(progress)?;
     let (mut made, movie) = measured(ask, source, drive, !ask.no_figures && out.is_some(), progress)?;
     if let Some(out) = out {
         write::write(ask, out, &mut made, movie, progress)?;
@@ -53,7 +74,11 @@ pub fn make_on(
 /// The surface or responses and the drive that an ask names.
 fn open(ask: &Ask, progress: &mut dyn Progress) -> Result<(Source, Drive), TaskError> {
     check(ask)?;
-    let source = source::open(&ask.surface, progress)?;
+    driven(ask, source::open(&ask.surface, progress)?)
+}
+
+/// A surface or responses, with the drive that an ask names.
+fn driven(ask: &Ask, source: Source) -> Result<(Source, Drive), TaskError> {
     allow(ask, &source)?;
     let drive = drive(&ask.drive, &source.surface)?;
     Ok((source, drive))

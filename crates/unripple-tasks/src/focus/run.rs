@@ -27,9 +27,26 @@ use unripple::physics::Medium;
 /// [`TaskError::Ask`] of options that make no sense; those of reading surfaces and drawings and of writing the folder; those of the
 /// methods; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    kept(ask, |progress| source::open(&ask.surface, progress), progress)
+}
+
+/// Does what [`run()`] does, on a surface or responses that are given instead of those that the ask names; the record of the folder holds the ask.
+///
+/// # Errors
+/// Those of [`run()`], but for those of reading them.
+pub fn run_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    kept(ask, |_| Ok(source), progress)
+}
+
+/// Computes and evaluates a drive on what `open` gives, and keeps it in a folder if one is given.
+fn kept(
+    ask: &Ask,
+    open: impl FnOnce(&mut dyn Progress) -> Result<Source, TaskError>,
+    progress: &mut dyn Progress,
+) -> Result<Report, TaskError> {
     let drawn = (!ask.no_figures).then_some(Columns::of(ask.columns)?);
     let out = folder::begin(ask.output.as_deref(), ask)?;
-    let mut made = make(ask, progress)?;
+    let mut made = make_on(ask, open(progress)?, progress)?;
     if let Some((out, record)) = out {
         write::write(&out, &mut made, &record, drawn)?;
         folder::finish(out, progress)?;

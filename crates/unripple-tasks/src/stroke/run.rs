@@ -26,10 +26,27 @@ const BETWEEN: usize = 2;
 /// # Errors
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; those of the method; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    kept(ask, |progress| source::open(&ask.surface, progress), progress)
+}
+
+/// Does what [`run()`] does, on a surface or responses that are given instead of those that the ask names; the record of the folder holds the ask.
+///
+/// # Errors
+/// Those of [`run()`], but for those of reading them.
+pub fn run_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    kept(ask, |_| Ok(source), progress)
+}
+
+/// Computes and evaluates a drive on what `open` gives, and keeps it in a folder if one is given.
+fn kept(
+    ask: &Ask,
+    open: impl FnOnce(&mut dyn Progress) -> Result<Source, TaskError>,
+    progress: &mut dyn Progress,
+) -> Result<Report, TaskError> {
     velocities(ask)?;
     let drawn = (!ask.no_figures).then_some(Columns::of(ask.columns)?);
     let out = folder::begin(ask.output.as_deref(), ask)?;
-    keep(make(ask, progress)?, out, drawn, progress)
+    keep(make_on(ask, open(progress)?, progress)?, out, drawn, progress)
 }
 
 /// Computes and evaluates a drive as [`run()`] does, without writing a folder, and returns all data.

@@ -21,10 +21,27 @@ const BANDS: [f64; 2] = [2.0, 3.0];
 /// [`TaskError::Ask`] without a waveform, and of numbers that make no sense; those of reading and writing files; those of the method;
 /// [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    kept(ask, |progress| source::open(&ask.surface, progress), progress)
+}
+
+/// Does what [`run()`] does, on a surface that is given instead of the one that the ask names; the record of the folder holds the ask.
+///
+/// # Errors
+/// Those of [`run()`], but for those of reading the surface.
+pub fn run_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    kept(ask, |_| Ok(source), progress)
+}
+
+/// Computes and evaluates a drive on what `open` gives, and keeps it in a folder if one is given.
+fn kept(
+    ask: &Ask,
+    open: impl FnOnce(&mut dyn Progress) -> Result<Source, TaskError>,
+    progress: &mut dyn Progress,
+) -> Result<Report, TaskError> {
     check(ask)?;
     let drawn = (!ask.no_figures).then_some(Columns::of(ask.columns)?);
     let out = folder::begin(ask.output.as_deref(), ask)?;
-    keep(make(ask, progress)?, out, drawn, progress)
+    keep(make_on(ask, open(progress)?, progress)?, out, drawn, progress)
 }
 
 /// Computes and evaluates a drive as [`run()`] does, without writing a folder, and returns all data.

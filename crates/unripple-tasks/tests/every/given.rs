@@ -110,6 +110,31 @@ fn a_focus_is_computed_from_what_is_given() {
 }
 
 #[test]
+fn a_folder_that_is_filled_from_what_is_given_is_that_of_the_surface() {
+    let [named, filled] = ["named-folder", "given-folder"].map(folder);
+    let ask = |place: &Path| focus::Ask { output: Some(place.into()), ..focus_ask() };
+    let alone = focus::run(&ask(&named), &mut Silent).unwrap();
+    let report = focus::run_on(&ask(&filled), given(), &mut Silent).unwrap();
+    assert_eq!(json(&report), json(&alone));
+    assert!(
+        report.files.iter().any(|name| name == "drive.wav") && report.files.len() > 3,
+        "{:?}",
+        report.files
+    );
+    for name in report.files.iter().map(String::as_str).chain(["report.md"]) {
+        let [one, other] = [&named, &filled].map(|folder| std::fs::read(folder.join(name)).unwrap());
+        assert!(one == other, "{name}");
+    }
+    // The record names the surface that the ask does.
+    let record = |folder: &Path| {
+        let text = std::fs::read_to_string(folder.join("report.json")).unwrap();
+        serde_json::from_str::<Value>(&text).unwrap()["run"]["ask"]["surface"].take()
+    };
+    assert_eq!(record(&filled), record(&named));
+    [named, filled].iter().for_each(|folder| std::fs::remove_dir_all(folder).unwrap());
+}
+
+#[test]
 fn waveforms_are_those_of_the_surface() {
     let (source, output) = (given(), folder("given-waveform"));
     let sound = SoundAsk::Burst { hz: 250.0, cycles: 5.0 };
