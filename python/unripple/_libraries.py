@@ -124,7 +124,8 @@ def fit(
     output
         Library to write, with responses of the fitted model; needs `grid_mm` or `at`.
     grid_mm, at
-        Spacing of a square grid of points, and single points, in mm.
+        Where the responses of the fitted model are computed for `output`: spacing of a square grid of points, and single points, in mm.
+        They need not have been measured. (Those of :func:`calibrate` are measured; what is fitted are the responses between actuators.)
     strays, profile
         Largest numbers of unknown point masses, and of half waves in the variation of the tension; 3 each by default.
     even_if_doubtful

@@ -14,7 +14,7 @@ pub struct FitOptions {
     /// Spacing of a square grid of points for the responses of the fitted model, in mm.
     #[arg(long, value_name = "P", allow_negative_numbers = true, requires = "output", help_heading = heading::RESULTS)]
     pub grid_mm: Option<f64>,
-    /// A point for the responses of the fitted model, in mm. Repeatable.
+    /// A point for the responses of the fitted model, in mm; nothing needs to have been measured there. Repeatable.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "output", help_heading = heading::RESULTS)]
     pub at: Vec<String>,
     /// Largest number of unknown point masses to fit.
