@@ -5,7 +5,10 @@ use unripple::act;
 use unripple::core::{Contact, Responses, Surface};
 use unripple::field::{Aim, Field};
 
-pub use unripple::act::{CELLS, JUDGED_BANDS, Judged, Judging, Note, accuracy, judged_hz};
+pub use unripple::act::{CELLS, JUDGED_BANDS, Judged, Judging, Note, Reached, accuracy, reached};
+
+/// The stage in which the responses are computed that a drive is evaluated on.
+pub(crate) const RESPONSES: &str = "responses for evaluation";
 
 /// A field longer than this, in seconds, takes long enough to measure that people should see it.
 const LONG: f64 = 0.2;

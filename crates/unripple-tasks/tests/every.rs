@@ -5,6 +5,8 @@
 mod by_name;
 #[path = "every/given.rs"]
 mod given;
+#[path = "every/reach.rs"]
+mod reach;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;

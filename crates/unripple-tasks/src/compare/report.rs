@@ -74,6 +74,17 @@ impl Report {
         all
     }
 
+    /// Remarks on the window of each surface and on the modes that its drives were evaluated on.
+    fn remarks(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        for on in self.surfaces() {
+            let of = if self.has_several() { format!("{}: ", on.label) } else { String::new() };
+            all.extend(on.window_text.iter().map(|window| format!("{of}window {window}")));
+            all.extend(on.judged_to_why.iter().map(|why| format!("{of}{why}")));
+        }
+        all
+    }
+
     /// The report as Markdown, with a link to its picture if there is one.
     pub(super) fn markdown(&self) -> String {
         let (title, picture) = match &self.on {
@@ -89,6 +100,9 @@ impl Report {
         for (name, why) in self.failed() {
             let _ = writeln!(text, "\n**{name}** failed: {why}");
         }
+        for remark in self.remarks() {
+            let _ = writeln!(text, "\n- {remark}");
+        }
         if self.files.iter().any(|file| file == "compare.png") {
             let _ = writeln!(text, "\n![{picture}](compare.png)");
         }
@@ -102,11 +116,7 @@ impl crate::Report for Report {
         for (name, why) in self.failed() {
             text += &format!("\n{name} failed: {why}\n");
         }
-        for on in self.surfaces() {
-            let of = if self.has_several() { format!("{}: ", on.label) } else { String::new() };
-            text.extend(on.window_text.iter().map(|window| format!("\n{of}window {window}\n")));
-            text.extend(on.judged_to_why.iter().map(|why| format!("\n{of}{why}\n")));
-        }
+        text.extend(self.remarks().iter().map(|remark| format!("\n{remark}\n")));
         text
     }
 }

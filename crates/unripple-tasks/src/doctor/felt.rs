@@ -1,10 +1,9 @@
 //! Checks of a focus on the model: contrast, and the level that a fingertip feels at the focus and elsewhere.
 
 use super::check::Check;
-use crate::TaskError;
-use crate::judge;
+use crate::judge::{self, Judging, Models};
 use crate::place::anywhere;
-use std::sync::Arc;
+use crate::{Solved, TaskError};
 use unripple::core::{Contact, Responses, Surface};
 use unripple::field::{Aim, Field, TargetFigures};
 use unripple::focus::{Options, Target, focus};
@@ -22,8 +21,14 @@ const APART: f64 = 3.0;
 /// Cells of the grid per shortest wavelength: enough for a verdict.
 const CELLS: f64 = 4.0;
 
-/// Checks a focus on the model, free and under a finger's load: contrast, felt level, and level felt elsewhere.
-pub fn checks(surface: &Surface, model: &Arc<Responses>, window: Window) -> Result<Vec<Check>, TaskError> {
+/// Checks a focus on the model, free and under a finger's load: contrast, felt level, and level felt elsewhere. The drive is computed
+/// from `model`, the modes of the band, and evaluated on those that every other task evaluates drives on.
+pub fn checks(
+    surface: &Surface,
+    model: &Responses,
+    window: Window,
+    solved: &Solved,
+) -> Result<Vec<Check>, TaskError> {
     let at = anywhere(&surface.outline);
     let options = Options { window: window.seconds, limit: surface.emission.limit, ..Options::default() };
     let drive = focus(model, &[Target::at(at)], &options).map_err(TaskError::input)?.drive.as_emitted();
@@ -33,14 +38,20 @@ pub fn checks(surface: &Surface, model: &Arc<Responses>, window: Window) -> Resu
         let measured = field.measure(&[aim], None).map_err(TaskError::input)?;
         measured.targets.into_iter().next().ok_or_else(|| TaskError::Work("no target was evaluated".into()))
     };
-    let free = judged(model)?;
-    let under = judged(&judge::model(surface, None, &[Contact { at, finger: surface.finger }])?)?;
-    Ok(vec![contrast(&free, window), level(&free, &under), spread(&free)])
+    let contacts = [Contact { at, finger: surface.finger }];
+    let (Models { free, under }, judging) = judge::models(surface, None, &contacts, solved)?;
+    let (free, under) = (judged(&free)?, judged(under.as_ref().unwrap_or(&free))?);
+    Ok(vec![contrast(&free, window, &judging), level(&free, &under), spread(&free)])
 }
 
-fn contrast(free: &TargetFigures, window: Window) -> Check {
+fn contrast(free: &TargetFigures, window: Window, judging: &Judging) -> Check {
     let contrast = free.contrast.unwrap_or(0.0);
-    let found = format!("contrast {contrast:.1} in a window of {:.1} ms", 1e3 * window.seconds);
+    let why = judging.note.as_ref().map_or(String::new(), |note| format!("; {}", note.text));
+    let found = format!(
+        "contrast {contrast:.1} in a window of {:.1} ms, on the modes up to {} Hz{why}",
+        1e3 * window.seconds,
+        judging.hz
+    );
     match contrast >= WEAK {
         true => Check::good("focus", found),
         false => Check::doubtful(

@@ -1,7 +1,7 @@
 //! Checks of all stages between a touch and what is felt.
 
 use super::{Ask, Check, Report, device, felt, touch};
-use crate::{Progress, TaskError, go_on, judge};
+use crate::{Progress, Solved, TaskError, go_on};
 use std::sync::Arc;
 use unripple::core::Surface;
 use unripple_live::Window;
@@ -13,10 +13,13 @@ use unripple_live::Window;
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let surface = ask.surface.load()?;
     go_on(progress)?;
-    progress.stage("model");
+    progress.stage("window");
     let mut checks = vec![Check::good("surface", told(&surface))];
     let window = Window::prompt(&surface);
-    match judge::model(&surface, None, &[]) {
+    go_on(progress)?;
+    progress.stage("model");
+    let solved = Solved::default();
+    match solved.model(&surface, None, &[]) {
         Err(error) => checks.push(Check::failed(
             "model",
             error.to_string(),
@@ -27,7 +30,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
             checks.push(Check::good("model", format!("{} responses are ready", surface.actuators.len())));
             go_on(progress)?;
             progress.stage("focus");
-            checks.extend(felt::checks(&surface, &model, window)?);
+            checks.extend(felt::checks(&surface, &model, window, &solved)?);
             go_on(progress)?;
             progress.stage("device");
             checks.extend(device::checks(&ask.device, &surface, &model)?);

@@ -1,7 +1,8 @@
 //! Evaluation of drives for waveforms and strokes, over their whole length.
 
 use super::Made;
-use crate::{Progress, Source, SurfaceAsk, TaskError, go_on, judge};
+use crate::judge::{self, Judging, Reached};
+use crate::{Progress, Source, SurfaceAsk, TaskError, go_on};
 use unripple::act::{DecidedBy, Followed, Report, Strength, Stroked};
 use unripple::core::{Drive, Responses, Surface};
 use unripple::field::{Aim, Field, SilenceFigures};
@@ -40,8 +41,9 @@ pub(crate) struct Common<'a> {
     pub judge_hz: Option<f64>,
     /// Name of the field that needs a surface, for the error if a library is given.
     pub needs: &'static str,
-    /// Multiples of the band up to which modes are planned with, and evaluated on by default; at most 0.45 of the sample rate.
-    pub bands: [f64; 2],
+    /// Multiples of the band up to which modes are planned with, and evaluated on by default, each followed by those that do where the
+    /// first is out of reach, above the band itself; at most 0.45 of the sample rate.
+    pub bands: [&'a [f64]; 2],
 }
 
 /// Computes a drive by `play`, which gets what `plan` made of the surface, the surface, and the responses for planning and
@@ -61,19 +63,22 @@ pub(crate) fn judge<T>(
     let plan = plan(&surface)?;
     progress.stage("responses");
     let [planned, judged] = common.bands;
-    let planned_hz = judge::judged_hz(&surface, planned);
-    // Responses that are given stand for those of the band.
-    let model = match computed.filter(|_| planned_hz == surface.emission.band[1]) {
-        Some(computed) => computed,
-        None => solved.model(&surface, Some(planned_hz), &[])?,
-    };
-    let judge_hz = common.judge_hz.unwrap_or_else(|| judge::judged_hz(plant, judged));
-    let judging = solved.model(plant, Some(judge_hz), &[])?;
+    let Reached { found: model, hz: planned_hz, missed } =
+        judge::reached(&surface, None, planned, |hz| match &computed {
+            // Responses that are given stand for those of the band.
+            Some(computed) if hz == surface.emission.band[1] => Ok(computed.clone()),
+            _ => solved.model(&surface, Some(hz), &[]),
+        })?;
+    go_on(progress)?;
+    progress.stage(judge::RESPONSES);
+    let on = Judging::among(plant, common.judge_hz, judged, |hz| solved.model(plant, Some(hz), &[]));
+    let (judging, on) = on?;
     go_on(progress)?;
     progress.stage("drive");
     let played = play(plan, &surface, [&model, &judging])?;
     crate::window::carries(model.conditions(), played.drive.duration(), "window_s")?;
     go_on(progress)?;
+    progress.stage("evaluation");
     let field = Field::new(&judging, &played.drive, CELLS).map_err(TaskError::input)?;
     let until = played.drive.duration() - 1.0 / played.drive.rate() + played.after;
     let period = Some(played.drive.duration());
@@ -86,7 +91,8 @@ pub(crate) fn judge<T>(
     let asked = Strength::of(&played.drive, &limits, DecidedBy::Asked);
     let by = if asked.below_limit > 1.0 + HELD { DecidedBy::Asked } else { DecidedBy::Limit };
     report.level = Some(Strength { decided_by: by, ..asked });
-    report.judged_on = Some(format!("{}, modes up to {judge_hz} Hz", plant.name));
+    on.tell(plant, &mut report);
+    report.notes.extend(missed.map(|missed| missed.on_planning(&surface, planned_hz)));
     report.waveforms = played.waveforms;
     report.silent = played.silent;
     report.stroke = played.stroke;

@@ -11,9 +11,9 @@ use unripple::core::{Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
 use unripple::focus::{FocusError, Pattern, PulseOptions, Stroke, strike};
 
-/// Strokes are planned and evaluated on modes up to these multiples of the band, the second by default: pulses fill
-/// the whole band.
-const BANDS: [f64; 2] = [1.0, 2.0];
+/// Strokes are planned on modes up to the first multiple of the band, and evaluated by default on those up to the second: pulses fill the
+/// whole band.
+const BANDS: [&[f64]; 2] = [&[1.0], &[2.0]];
 
 /// Places of a stroke measured at once, which bounds memory.
 const AT_ONCE: usize = 256;

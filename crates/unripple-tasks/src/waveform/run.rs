@@ -10,9 +10,9 @@ use unripple::core::{Responses, Surface};
 use unripple::field::{Aim, Field, Wanted};
 use unripple::focus::{PlayOptions, Waveform, play};
 
-/// Waveforms are planned and evaluated on modes up to these multiples of the band, the second by default: at low
-/// frequencies a sheet yields by modes far above.
-const BANDS: [f64; 2] = [2.0, 3.0];
+/// Waveforms are planned on modes up to the first multiple of the band, and evaluated by default on those up to the second, or the third where
+/// that is out of reach: at low frequencies a sheet yields by modes far above.
+const BANDS: [&[f64]; 2] = [&[2.0], &[3.0, 2.0]];
 
 /// Computes a drive by which targets follow waveforms while other places are still, evaluates it, and writes it to a folder if one is
 /// given.

@@ -45,17 +45,24 @@ impl Judging {
     pub fn of<T>(
         surface: &Surface,
         asked: Option<f64>,
-        mut solve: impl FnMut(f64) -> Result<T, ActError>,
+        solve: impl FnMut(f64) -> Result<T, ActError>,
     ) -> Result<(T, Self), ActError> {
-        let top = surface.emission.band[1];
-        let hz = asked.unwrap_or_else(|| judged_hz(surface, JUDGED_BANDS));
-        match solve(hz) {
-            Err(error) if asked.is_none() && hz > top && is_out_of_reach(&error) => {
-                let note = Some(within_the_band(top, hz, &error));
-                Ok((solve(top)?, Self { hz: top, note }))
-            }
-            found => Ok((found?, Self { hz, note: None })),
-        }
+        Self::among(surface, asked, &[JUDGED_BANDS], solve)
+    }
+
+    /// As [`Judging::of`], for drives that are evaluated by default on modes up to the first of `bands`, descending multiples of the
+    /// band; where those are out of reach on the next of them, and last on the band.
+    ///
+    /// # Errors
+    /// Those of `solve`.
+    pub fn among<T>(
+        surface: &Surface,
+        asked: Option<f64>,
+        bands: &[f64],
+        solve: impl FnMut(f64) -> Result<T, ActError>,
+    ) -> Result<(T, Self), ActError> {
+        let Reached { found, hz, missed } = reached(surface, asked, bands, solve)?;
+        Ok((found, Self { hz, note: missed.map(|missed| missed.on_judging(surface, hz)) }))
     }
 
     /// Adds to a report what its metrics were computed on: the modes of `surface` up to this frequency, with the note.
@@ -63,6 +70,94 @@ impl Judging {
         report.judged_on = Some(format!("{}, modes up to {} Hz", surface.name, self.hz));
         report.notes.extend(self.note.clone());
     }
+}
+
+/// What was computed from the modes up to the highest frequency within reach.
+#[derive(Clone, Debug)]
+pub struct Reached<T> {
+    /// What was computed.
+    pub found: T,
+    /// Highest frequency of its modes, in Hz.
+    pub hz: f64,
+    /// The modes that were to be used, if they are out of reach.
+    pub missed: Option<Missed>,
+}
+
+/// Modes out of reach, by their number or accuracy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Missed {
+    /// Highest frequency of these modes, in Hz.
+    pub hz: f64,
+    /// Why they are out of reach.
+    pub error: ActError,
+}
+
+/// Calls `solve` with the highest frequency (Hz) of the modes to use: `asked`, or by default [`judged_hz`] with the first of `bands`,
+/// descending multiples of the band. Where these modes are too many for the memory, or not to be had with the accuracy, `solve` is called
+/// again with the next of them, and last with the top of the band.
+///
+/// # Errors
+/// Those of `solve`.
+pub fn reached<T>(
+    surface: &Surface,
+    asked: Option<f64>,
+    bands: &[f64],
+    mut solve: impl FnMut(f64) -> Result<T, ActError>,
+) -> Result<Reached<T>, ActError> {
+    if let Some(hz) = asked {
+        return Ok(Reached { found: solve(hz)?, hz, missed: None });
+    }
+    let last = surface.emission.band[1];
+    let mut tops: Vec<f64> = bands.iter().map(|bands| judged_hz(surface, *bands)).collect();
+    // Multiples that the sample rate limits may be the same.
+    tops.dedup();
+    let mut missed = None;
+    for hz in tops.into_iter().filter(|hz| *hz > last) {
+        match solve(hz) {
+            Ok(found) => return Ok(Reached { found, hz, missed }),
+            // The first says what was wanted, and why it was not to be had.
+            Err(error) if is_out_of_reach(&error) => {
+                missed.get_or_insert(Missed { hz, error });
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    let found = solve(last)?;
+    Ok(Reached { found, hz: last, missed })
+}
+
+impl Missed {
+    /// A note that a drive on `surface` is evaluated on the modes up to `hz` (Hz) instead of these.
+    fn on_judging(&self, surface: &Surface, hz: f64) -> Note {
+        let Self { hz: wanted, error } = self;
+        Note {
+            topic: "judged on",
+            text: format!(
+                "the field is that of {}, since those up to {wanted} Hz are out of reach ({error}): a drive that was computed from the \
+                 same modes looks better on them than on a sheet, which has modes above as well",
+                told(surface, hz)
+            ),
+        }
+    }
+
+    /// A note that a drive for waveforms on `surface` is planned on the modes up to `hz` (Hz) instead of these.
+    pub fn on_planning(&self, surface: &Surface, hz: f64) -> Note {
+        let Self { hz: wanted, error } = self;
+        Note {
+            topic: "planned on",
+            text: format!(
+                "the drive is planned on {}, since those up to {wanted} Hz are out of reach ({error}): at low frequencies a sheet yields \
+                 by modes far above as well, and targets follow their waveforms less closely than on those",
+                told(surface, hz)
+            ),
+        }
+    }
+}
+
+/// The modes of a surface up to `hz` (Hz), in words.
+fn told(surface: &Surface, hz: f64) -> String {
+    let of = if hz == surface.emission.band[1] { " of the band," } else { "" };
+    format!("the modes{of} up to {hz} Hz")
 }
 
 /// Whether modes are out of reach by their number or accuracy, so that fewer of them may be within it.
@@ -73,17 +168,6 @@ fn is_out_of_reach(error: &ActError) -> bool {
             PhysicsError::TooLarge { .. } | PhysicsError::NotConverged { .. } | PhysicsError::Solver { .. }
         )
     )
-}
-
-/// A note that a drive is evaluated on the modes up to `top` (Hz) instead of those up to `hz`.
-fn within_the_band(top: f64, hz: f64, error: &ActError) -> Note {
-    Note {
-        topic: "judged on",
-        text: format!(
-            "the field is that of the modes of the band, up to {top} Hz, since those up to {hz} Hz are out of reach ({error}): a \
-             drive that was computed from the same modes looks better on them than on a sheet, which has modes above as well"
-        ),
-    }
 }
 
 #[cfg(test)]
@@ -140,6 +224,29 @@ mod tests {
             assert!(note.text.contains("up to 3000 Hz, since those up to 6000 Hz"), "{}", note.text);
             assert!(note.text.contains(&why), "{}", note.text);
         }
+    }
+
+    #[test]
+    fn of_several_multiples_of_the_band_the_highest_within_reach_counts() {
+        let short_of = |most: f64| {
+            move |hz: f64| match hz > most {
+                true => Err(ActError::from(PhysicsError::Solver {
+                    max_hz: hz,
+                    found: format!("no factors at {hz} Hz"),
+                })),
+                false => Ok(hz),
+            }
+        };
+        for (most, expected) in [(9000.0, 9000.0), (6000.0, 6000.0), (3000.0, 3000.0)] {
+            let (found, judging) = Judging::among(&film(48e3), None, &[3.0, 2.0], short_of(most)).unwrap();
+            assert_eq!((found, judging.hz), (expected, expected));
+            assert_eq!(judging.note.is_some(), most < 9000.0);
+            // What was wanted first, and why it was not to be had.
+            let text = judging.note.map_or(String::new(), |note| note.text);
+            assert!(most == 9000.0 || text.contains("no factors at 9000 Hz"), "{text}");
+        }
+        let beyond = Judging::among(&film(48e3), None, &[3.0, 2.0], short_of(1000.0)).unwrap_err();
+        assert!(beyond.to_string().contains("3000 Hz"), "{beyond}");
     }
 
     #[test]

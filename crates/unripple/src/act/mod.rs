@@ -31,7 +31,7 @@ pub use carries::carries;
 pub use error::{ActError, LevelKind};
 pub use fingers::{Felt, felt};
 pub use judge::{Judged, judge, known};
-pub use judging::{JUDGED_BANDS, Judging, judged_hz};
+pub use judging::{JUDGED_BANDS, Judging, Missed, Reached, judged_hz, reached};
 pub use level::Level;
 pub use model::{accuracy, model};
 pub use note::{Note, nearby};
