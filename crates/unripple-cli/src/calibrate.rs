@@ -8,13 +8,15 @@ use crate::progress::{Bar, Terminal};
 use crate::targets::{places, positive, seconds};
 use std::io::{BufRead, Write};
 use unripple_tasks::calibrate::{self, Ask, By, Hands, InputScales};
+use unripple_tasks::observed;
 
 /// Measures responses; on a real device the user is asked to move the probe or to tap.
 pub fn run(options: &CalibrateOptions, common: &Common) -> Result<(), CliError> {
     let ask = ask(common, options)?;
     let record = output::record(common.json, &ask)?;
     let mut terminal = Terminal::default();
-    let done = calibrate::run_with(&ask, by_hand(terminal.bar()), &mut terminal);
+    let hands = by_hand(terminal.bar());
+    let done = observed(&mut terminal, |progress| calibrate::run_with(&ask, hands, progress));
     drop(terminal);
     output::recorded(&done?, record.as_ref())
 }

@@ -5,7 +5,7 @@ use crate::options;
 use crate::progress::Terminal;
 use std::io::Write;
 use unripple_tasks::record::Request;
-use unripple_tasks::{Progress, Record, Report, TaskError, folder};
+use unripple_tasks::{Progress, Record, Report, TaskError, folder, observed};
 
 /// Writes bytes to standard output. A reader that has gone away, as in `unripple … | head`, is no failure.
 pub fn print(bytes: &[u8]) -> Result<(), CliError> {
@@ -22,7 +22,7 @@ pub fn perform<A: Request, R: Report>(
     run: fn(&A, &mut dyn Progress) -> Result<R, TaskError>,
 ) -> Result<(), CliError> {
     let record = record(as_json, ask)?;
-    let done = run(ask, &mut Terminal::default());
+    let done = observed(&mut Terminal::default(), |progress| run(ask, progress));
     recorded(&done?, record.as_ref())
 }
 

@@ -4,12 +4,16 @@ use crate::lines::{Lines, Talk, talk};
 use crate::options;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
-use unripple_tasks::Progress;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::time::{Duration, Instant};
+use unripple::core::Observer;
+use unripple_tasks::{Progress, part_of};
 
 /// Steps of a bar, more than a terminal has columns.
 const STEPS: u64 = 1000;
+
+/// Interval at which it is looked whether a line is due: a fraction of the seconds between lines.
+const LOOK: Duration = Duration::from_millis(250);
 
 /// Handle of the progress bar, if one is drawn, for code that has to print something meanwhile.
 #[derive(Clone, Debug, Default)]
@@ -33,73 +37,173 @@ impl Bar {
 /// standard error.
 #[derive(Debug)]
 pub struct Terminal {
-    bar: Bar,
-    lines: Option<Lines>,
-    /// Whether the bar shows a share rather than that something moves.
-    measured: bool,
+    shown: Arc<Shown>,
     wished: Option<Arc<AtomicBool>>,
 }
 
 impl Default for Terminal {
     fn default() -> Self {
-        Self { bar: Bar::default(), lines: Lines::wanted(), measured: false, wished: None }
+        let terminal = Self::quiet_between();
+        if terminal.shown.state().lines.is_some() {
+            keep_telling(Arc::downgrade(&terminal.shown));
+        }
+        terminal
     }
 }
 
+/// Prints the lines that are due, also while a task tells nothing, until nobody shows its progress any more.
+fn keep_telling(shown: Weak<Shown>) {
+    let tell = move || {
+        loop {
+            std::thread::sleep(LOOK);
+            let Some(shown) = shown.upgrade() else { return };
+            // Nothing is told while people are asked something.
+            if shown.bar.0.try_lock().is_ok() {
+                shown.tell(|lines, now| lines.beat(now));
+            }
+        }
+    };
+    // Without the thread, lines come when the task tells something.
+    let _ = std::thread::Builder::new().name("progress".into()).spawn(tell);
+}
+
 impl Terminal {
-    /// Progress for a task that stops by itself: the first signal cancels the task instead of ending the program.
+    /// Progress for a task that goes on until it is stopped: the first signal cancels the task instead of ending the program, and only what
+    /// the task tells is told, since its last stage lasts as long as people like.
     pub fn that_stops() -> Self {
-        let mut terminal = Self::default();
+        let mut terminal = Self::quiet_between();
         terminal.wished = Some(crate::interrupt::wished());
         terminal
     }
 
-    /// Handle of the progress bar.
-    pub fn bar(&self) -> Bar {
-        self.bar.clone()
+    /// Progress that shows nothing between what a task tells.
+    fn quiet_between() -> Self {
+        let state = State { lines: Lines::wanted(), stage: String::new(), measured: false };
+        let shown = Arc::new(Shown { bar: Bar::default(), state: Mutex::new(state) });
+        Self { shown, wished: None }
     }
 
-    fn clear(&mut self) {
+    /// Handle of the progress bar.
+    pub fn bar(&self) -> Bar {
+        self.shown.bar.clone()
+    }
+}
+
+/// What is shown of a task's progress, from any thread.
+#[derive(Debug)]
+struct Shown {
+    bar: Bar,
+    state: Mutex<State>,
+}
+
+/// The stage that is shown.
+#[derive(Debug)]
+struct State {
+    lines: Option<Lines>,
+    stage: String,
+    /// Whether the bar shows a share rather than that something moves.
+    measured: bool,
+}
+
+impl Shown {
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Prints the line that is due; returns whether lines are shown rather than a bar.
+    fn tell(&self, due: impl FnOnce(&mut Lines, Instant) -> Option<String>) -> bool {
+        let mut state = self.state();
+        let Some(lines) = &mut state.lines else { return false };
+        if let Some(line) = due(lines, Instant::now()) {
+            eprintln!("{line}");
+        }
+        true
+    }
+
+    /// Shows a spinner with a text in place of what was shown.
+    fn spin(&self, what: String) {
+        self.clear();
+        if talk() == Talk::Quiet {
+            return;
+        }
+        let bar = ProgressBar::new_spinner().with_message(what);
+        bar.enable_steady_tick(Duration::from_millis(120));
+        *self.bar.get() = Some(bar);
+    }
+
+    fn clear(&self) {
         if let Some(bar) = self.bar.get().take() {
             bar.finish_and_clear();
         }
-        self.measured = false;
+        self.state().measured = false;
+    }
+
+    fn over(&self) {
+        self.state().stage.clear();
+        if !self.tell(|lines, _| lines.over()) {
+            self.clear();
+        }
+    }
+
+    fn stage(&self, what: &str) {
+        what.clone_into(&mut self.state().stage);
+        if !self.tell(|lines, now| lines.stage(what, now)) {
+            self.spin(what.to_owned());
+        }
+    }
+}
+
+impl Observer for Shown {
+    fn part(&self, what: &str) {
+        if self.tell(|lines, now| lines.part(what, now)) {
+            return;
+        }
+        let mut state = self.state();
+        state.measured = false;
+        // Parts may follow each other a hundred times a second: the spinner stays.
+        if let Some(bar) = &*self.bar.get() {
+            bar.set_style(ProgressStyle::default_spinner());
+            bar.set_message(part_of(&state.stage, what));
+        }
+    }
+
+    fn done(&self, share: f64) {
+        if self.tell(|lines, now| lines.done(share, now)) {
+            return;
+        }
+        let (mut state, bar) = (self.state(), self.bar.get());
+        let Some(bar) = &*bar else { return };
+        if !state.measured
+            && let Ok(style) = ProgressStyle::with_template("{msg} {bar:40} {percent} %, {eta} left")
+        {
+            bar.set_style(style);
+            bar.set_length(STEPS);
+            state.measured = true;
+        }
+        bar.set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);
     }
 }
 
 impl Progress for Terminal {
     fn stage(&mut self, what: &str) {
-        self.clear();
-        if let Some(lines) = &mut self.lines {
-            return lines.stage(what);
-        }
-        if talk() == Talk::Quiet {
-            return;
-        }
-        let bar = ProgressBar::new_spinner().with_message(what.to_owned());
-        bar.enable_steady_tick(Duration::from_millis(120));
-        *self.bar.get() = Some(bar);
+        self.shown.stage(what);
     }
 
     fn done(&mut self, share: f64) {
-        if let Some(lines) = &mut self.lines {
-            return lines.done(share);
-        }
-        let bar = self.bar.get();
-        let Some(bar) = &*bar else { return };
-        if !self.measured
-            && let Ok(style) = ProgressStyle::with_template("{msg} {bar:40} {percent} %, {eta} left")
-        {
-            bar.set_style(style);
-            bar.set_length(STEPS);
-            self.measured = true;
-        }
-        bar.set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);
+        self.shown.done(share);
+    }
+
+    fn over(&mut self) {
+        self.shown.over();
     }
 
     fn tell(&mut self, line: &str) {
         let line = options::spoken(line);
-        self.bar.aside(|| eprintln!("{line}"));
+        self.shown.bar.aside(|| eprintln!("{line}"));
+    }
+
+    fn observer(&self) -> Option<Arc<dyn Observer>> {
+        Some(self.shown.clone())
     }
 
     fn cancelled(&self) -> bool {
@@ -109,6 +213,6 @@ impl Progress for Terminal {
 
 impl Drop for Terminal {
     fn drop(&mut self) {
-        self.clear();
+        self.shown.clear();
     }
 }

@@ -6,9 +6,9 @@ use crate::error::CliError;
 use crate::output;
 use crate::progress::Terminal;
 use unripple_paper::commands;
-use unripple_tasks::play;
 use unripple_tasks::record::Request;
 use unripple_tasks::rerun::{self, Ask};
+use unripple_tasks::{observed, play};
 
 /// Does what a report records once more.
 pub fn run(options: &RerunOptions, common: &Common) -> Result<(), CliError> {
@@ -20,7 +20,7 @@ pub fn run(options: &RerunOptions, common: &Common) -> Result<(), CliError> {
         play::Ask::COMMAND => Terminal::that_stops(),
         _ => Terminal::default(),
     };
-    let done = commands::repeat(&record, &ask, &mut terminal);
+    let done = observed(&mut terminal, |progress| commands::repeat(&record, &ask, progress));
     drop(terminal);
     output::report(common.json, &done?)
 }

@@ -5,6 +5,7 @@ use crate::motion::Motion;
 use crate::source::{Passage, Tally, Weighed};
 use rayon::prelude::*;
 use std::ops::Range;
+use unripple_core::Observed;
 use unripple_linalg::{Mat, product};
 
 /// Values of weighed modes that are held at once, 128 MiB of them. Doubled, twice the memory and half the
@@ -47,6 +48,8 @@ impl<'a> Feeling<'a> {
         let chunks = self.field.points().chunks(self.field.points_at_once());
         let mut tallies: Vec<Tally> = chunks.map(|points| Tally::zeros(points.len())).collect();
         let mut snapshots = vec![Vec::new(); self.passage.instants.len()];
+        let observed = Observed::here();
+        observed.part(|| format!("as felt at {} points, {} samples", self.field.points().len(), span.len()));
         for start in span.clone().step_by(stride) {
             let part = start..span.end.min(start + stride);
             let block = self.block(&part);
@@ -71,6 +74,7 @@ impl<'a> Feeling<'a> {
                 snapshots[instant] =
                     read.iter().flat_map(|(_, values)| values.col_as_slice(column)).copied().collect();
             }
+            observed.done((part.end - span.start) as f64 / span.len() as f64);
         }
         let mut tally = Tally::default();
         for own in tallies {

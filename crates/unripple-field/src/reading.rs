@@ -8,7 +8,7 @@ use crate::spot::{Around, Spot};
 use crate::{FieldError, spot};
 use rayon::prelude::*;
 use std::ops::Range;
-use unripple_core::Point;
+use unripple_core::{Observed, Point};
 use unripple_linalg::{Mat, Number, product};
 
 /// Most samples from the start of a drive: 7 minutes at 48 kHz. Doubled, twice as long.
@@ -62,6 +62,9 @@ impl Source for ModalField<'_> {
         let mut tallies: Vec<Vec<[Tally; 2]>> =
             self.points().chunks(self.points_at_once()).map(chunk).collect();
         let mut motion = Motion::new(self.responses, self.drive);
+        let observed = Observed::here();
+        let (all, mut done) = (segments.iter().map(Range::len).sum::<usize>(), 0);
+        observed.part(|| format!("{} points, {all} samples", self.points().len()));
         for (segment, range) in segments.iter().enumerate() {
             motion.skip_to(range.start, self.samples_at_once());
             while motion.next() < range.end {
@@ -72,6 +75,8 @@ impl Source for ModalField<'_> {
                         add_to(tally, weights.as_ref(), states.as_ref());
                     }
                 });
+                done += count;
+                observed.done(done as f64 / all as f64);
             }
         }
         Survey { tallies: joined(tallies, segments.len()), snapshots: self.snapshots(instants) }

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use std::cell::{Cell, RefCell};
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
-use unripple_tasks::{Lane, Progress, TaskError};
+use unripple_tasks::{Lane, Progress, TaskError, observed};
 
 /// How often the interpreter is asked for signals: far within the 0.2 s in which a call is to end, and rarely enough that other threads of
 /// Python do not notice.
@@ -32,7 +32,8 @@ pub(crate) fn work<R: Send + 'static>(
     let (result, exception) = followed(py, progress, move |reported| {
         WORK.run(
             move |progress| match pool {
-                Some(pool) => pool.install(|| work(progress)),
+                // What is computed on a thread of the pool is observed from there.
+                Some(pool) => pool.install(|| observed(progress, |progress| work(progress))),
                 None => work(progress),
             },
             reported,

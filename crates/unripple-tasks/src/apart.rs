@@ -1,10 +1,12 @@
 //! Runs a task on its own thread, so that a cancelled call returns at once, even while the task is in work that cannot be interrupted.
 
+use crate::progress::part_of;
 use crate::{Progress, TaskError};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Condvar, LazyLock, Mutex, PoisonError};
 use std::time::Duration;
+use unripple::core::{Observed, Observer};
 
 /// Interval at which the caller checks for a cancellation: a tenth of the 0.2 s after which people take a program for stuck.
 const LOOK: Duration = Duration::from_millis(20);
@@ -25,7 +27,10 @@ pub struct Lane {
 /// What a task on its own thread says.
 enum Said<R> {
     Stage(String),
+    /// A part of the stage.
+    Part(String),
     Done(f64),
+    Ended,
     Tell(String),
     Over(Result<R, TaskError>),
 }
@@ -44,7 +49,21 @@ struct Relay<R> {
     shared: Arc<Shared>,
 }
 
-impl<R> Progress for Relay<R> {
+/// Passes on what long computations tell.
+struct Parts<R>(Sender<Said<R>>);
+
+impl<R: Send> Observer for Parts<R> {
+    // As of the task itself.
+    fn part(&self, what: &str) {
+        let _ = self.0.send(Said::Part(what.into()));
+    }
+
+    fn done(&self, share: f64) {
+        let _ = self.0.send(Said::Done(share));
+    }
+}
+
+impl<R: Send + 'static> Progress for Relay<R> {
     // A caller that has gone gets no report, which is no fault of the task.
     fn stage(&mut self, what: &str) {
         let _ = self.to.send(Said::Stage(what.into()));
@@ -54,8 +73,16 @@ impl<R> Progress for Relay<R> {
         let _ = self.to.send(Said::Done(share));
     }
 
+    fn over(&mut self) {
+        let _ = self.to.send(Said::Ended);
+    }
+
     fn tell(&mut self, line: &str) {
         let _ = self.to.send(Said::Tell(line.into()));
+    }
+
+    fn observer(&self) -> Option<Arc<dyn Observer>> {
+        Some(Arc::new(Parts(self.to.clone())))
     }
 
     fn cancelled(&self) -> bool {
@@ -101,7 +128,8 @@ impl Lane {
         let shared = Arc::new(Shared::default());
         let mut relay = Relay { to, shared: shared.clone() };
         let work = move || {
-            let over = work(&mut relay);
+            let observed = Observed::by(relay.observer());
+            let over = observed.during(|| work(&mut relay));
             // Whoever cancelled it is not informed of how it ended.
             let _ = relay.to.send(Said::Over(over));
         };
@@ -180,10 +208,19 @@ fn follow<R>(
     shared: &Shared,
     progress: &mut dyn Progress,
 ) -> Option<Result<R, TaskError>> {
+    let mut stage = String::new();
     loop {
         match from.recv_timeout(LOOK) {
-            Ok(Said::Stage(what)) => progress.stage(&what),
+            Ok(Said::Stage(what)) => {
+                progress.stage(&what);
+                stage = what;
+            }
+            Ok(Said::Part(what)) => match progress.observer() {
+                Some(observer) => observer.part(&what),
+                None => progress.stage(&part_of(&stage, &what)),
+            },
             Ok(Said::Done(share)) => progress.done(share),
+            Ok(Said::Ended) => progress.over(),
             Ok(Said::Tell(line)) => progress.tell(&line),
             Ok(Said::Over(result)) => return Some(result),
             Err(RecvTimeoutError::Timeout) => {}

@@ -73,7 +73,7 @@ pub use error::TaskError;
 pub use names::{interpolation, method};
 pub use numbers::above_zero;
 pub use place::{Place, point};
-pub use progress::{Progress, Silent, go_on};
+pub use progress::{Progress, Silent, go_on, observed, part_of};
 pub use record::Record;
 pub use report::{REPORT_SCHEMA, Report};
 pub use solved::Solved;

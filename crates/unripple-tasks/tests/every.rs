@@ -7,6 +7,8 @@ mod by_name;
 mod given;
 #[path = "every/reach.rs"]
 mod reach;
+#[path = "every/told.rs"]
+mod told;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -10,7 +10,7 @@ use super::solve::Found;
 use super::spectra::Spectra;
 use crate::CalibrateError;
 use std::f64::consts::TAU;
-use unripple_core::{Decay, Point, Surface, require};
+use unripple_core::{Decay, Observed, Point, Surface, require};
 use unripple_physics::{Medium, Transducer};
 
 /// Options of a fit: band, tension profile, stray masses, window.
@@ -188,6 +188,9 @@ impl Fit<'_> {
         modes_hz: f64,
         last: bool,
     ) -> Result<(Found, Spectra, usize), CalibrateError> {
+        let [low, high] = band;
+        Observed::here()
+            .part(|| format!("{low:.0} to {high:.0} Hz{}", if last { ", for the last time" } else { "" }));
         let spectra = self.spectra(band, alpha)?;
         let count = self.basis.below(modes_hz);
         let mut layout = self.layout.clone();
@@ -200,6 +203,7 @@ impl Fit<'_> {
             };
             let mut more = layout.clone();
             more.strays += 1;
+            Observed::here().part(|| format!("{low:.0} to {high:.0} Hz with {} stray masses", more.strays));
             let (start, expected) = (with(&found.values, at, mass), with(&self.expected, at, 0.0));
             let next = self.case(&more, &spectra, count).descend(&start, &expected, last)?;
             if next.excess > WORTH * found.excess {

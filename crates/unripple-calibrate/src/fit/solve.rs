@@ -3,7 +3,7 @@
 use super::layout::Values;
 use super::residual::{Case, Residual};
 use crate::CalibrateError;
-use unripple_core::Point;
+use unripple_core::{Observed, Point};
 use unripple_linalg::{Cholesky, Mat, product};
 
 /// Largest number of steps of a descent, and the change of the cost that ends it: `STEPS` and `SETTLED`, a share of the cost, for all
@@ -50,6 +50,7 @@ impl Case<'_> {
     /// the priors.
     pub fn descend(&self, start: &Values, expected: &Values, last: bool) -> Result<Found, CalibrateError> {
         let most = if last { LAST_STEPS } else { STEPS };
+        let observed = Observed::here();
         let mut values = start.clone();
         let mut residual = self.linear(&values)?;
         let (mut damping, mut steps) = (1e-3, 0);
@@ -65,6 +66,7 @@ impl Case<'_> {
                 let trial = self.moved(&values, step.col(0).iter());
                 let after = self.residual(&trial).map(|r| cost(&r, &trial)).unwrap_or(f64::INFINITY);
                 steps += 1;
+                observed.done(steps as f64 / most as f64);
                 if after < before {
                     damping = (damping * 0.1).max(1e-9);
                     values = trial;

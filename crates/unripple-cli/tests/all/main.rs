@@ -27,6 +27,7 @@ mod library;
 mod main_job;
 mod no_figures;
 mod ownership;
+mod progress;
 #[path = "../../../unripple-core/tests/shared/python.rs"]
 mod python;
 mod recordings;

@@ -10,7 +10,7 @@ use super::state::{Drives, Root, proportional, roots};
 use crate::PhysicsError;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use unripple_core::{Pole, Shapes};
+use unripple_core::{Observed, Pole, Shapes};
 use unripple_linalg::{Mat, c64, product};
 
 /// A part of an oscillation below this share of its largest part is rounding and is left out. Larger, weak parts that matter
@@ -81,6 +81,7 @@ impl Loaded {
         let (active, passive) = split(&system.poles, system.felt.as_ref());
         let coupled = active.iter().filter(|shape| shape.pole.omega <= TAU * dynamic_hz).count();
         guard(coupled, passive.len() * system.poles.len(), band[1])?;
+        Observed::here().part(|| format!("{coupled} modes coupled to {} loads", system.loads.len()));
         let mut parts = Parts::default();
         let [low, high] = band.map(|hz| TAU * hz);
         // A mode exactly at the top stays in, whatever the rounding.

@@ -26,6 +26,7 @@ pub(crate) use memory::estimate_bytes;
 use pencil::Pencil;
 use plan::Plan;
 use rayon::prelude::*;
+use unripple_core::Observed;
 use unripple_linalg::Mat;
 use unripple_linalg::sparse::SparseColMatRef;
 
@@ -53,7 +54,8 @@ pub(crate) struct Pairs {
     pub(crate) residual: f64,
 }
 
-/// All eigenpairs with λ < `top`, for K positive semidefinite and M positive definite, both given with both triangles.
+/// All eigenpairs with λ < `top`, for K positive semidefinite and M positive definite, both given with both triangles. `observed` is told
+/// of factorisations while shifts are placed, then of the share of the eigenpairs that is computed.
 ///
 /// # Errors
 /// [`SpectrumError::Matrices`] unless both matrices are square, of equal size and finite, and M is positive definite;
@@ -63,6 +65,7 @@ pub(crate) fn below(
     stiffness: SparseColMatRef<usize, f64>,
     mass: SparseColMatRef<usize, f64>,
     top: f64,
+    observed: &Observed,
 ) -> Result<Pairs, SpectrumError> {
     check_bound(top)?;
     let pencil = Pencil::new(stiffness, mass)?;
@@ -72,7 +75,7 @@ pub(crate) fn below(
     let mut pieces = if pencil.len() <= SMALL {
         vec![dense::all(&pencil, top)?]
     } else {
-        let found = Plan::new(&pencil, top).and_then(|plan| slicing::all(&pencil, plan));
+        let found = Plan::new(&pencil, top, observed).and_then(|plan| slicing::all(&pencil, plan, observed));
         match found {
             Err(SpectrumError::Missed { .. }) if pencil.len() <= MEDIUM => vec![dense::all(&pencil, top)?],
             found => found?,

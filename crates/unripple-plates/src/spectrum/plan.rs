@@ -4,6 +4,7 @@ use super::SpectrumError;
 use super::factor::Factor;
 use super::pencil::Pencil;
 use rayon::prelude::*;
+use unripple_core::Observed;
 use unripple_linalg::Par;
 
 /// Approximate number of eigenpairs computed at each shift. Doubled, there are half as many factorisations, and bases of
@@ -74,7 +75,8 @@ impl<'a> Plan<'a> {
     ///
     /// # Errors
     /// [`SpectrumError::Factors`] if K - σM cannot be factorised at a bound or shift.
-    pub(super) fn new(pencil: &'a Pencil, top: f64) -> Result<Self, SpectrumError> {
+    pub(super) fn new(pencil: &'a Pencil, top: f64, observed: &Observed) -> Result<Self, SpectrumError> {
+        observed.part(|| "counting modes".into());
         let first = [1.0, 0.25].par_iter().map(|part| factor_near(pencil, top * part, top * part * STEP));
         let first = first.collect::<Result<Vec<_>, _>>()?;
         let (top, below) = (first[0].shift, first[0].below);
@@ -88,7 +90,7 @@ impl<'a> Plan<'a> {
         let mut known: Vec<Shift> = first.into_iter().map(shift).collect();
         let share = below as f64 / count.max(1) as f64;
         let places: Vec<f64> = (0..count).map(|i| (i as f64 + 0.5) * share).collect();
-        for _ in 0..ROUNDS {
+        for round in 1..=ROUNDS {
             known.sort_by(|a, b| a.at.total_cmp(&b.at));
             let off = |place: &&f64| {
                 known.iter().all(|k| (k.below as f64 - **place).abs() > SLACK * share || k.at >= top)
@@ -97,7 +99,10 @@ impl<'a> Plan<'a> {
             if wanted.is_empty() {
                 break;
             }
-            let more = wanted.par_iter().map(|at| factor_near(pencil, *at, at * STEP));
+            observed.part(|| format!("placing shifts, round {round} of {ROUNDS} at most"));
+            let steps = observed.steps(wanted.len());
+            let more =
+                wanted.par_iter().map(|at| factor_near(pencil, *at, at * STEP)).inspect(|_| steps.take(1.0));
             known.extend(more.collect::<Result<Vec<_>, _>>()?.into_iter().map(shift));
         }
         known.retain(|k| k.at < top);

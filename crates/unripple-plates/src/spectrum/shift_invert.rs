@@ -7,6 +7,7 @@ use super::lanczos::{Lanczos, Ritz};
 use super::panel::{LANES, NONE, Panel, project, subtract};
 use super::pencil::Pencil;
 use super::solve::solve;
+use unripple_core::Steps;
 
 /// Relative residual, as estimated by the iteration, at which an eigenpair counts as found: the error of its eigenvalue is
 /// about its square, below rounding errors. Ten times more saves one or two steps.
@@ -27,6 +28,9 @@ const DECADES: f64 = 0.7;
 /// multiplicity than the block, and are found in another way. Doubled, that is noticed later.
 const PATIENCE: usize = 3;
 
+/// Share of the work at a shift that is told of while its basis grows. Nearer to 1, less is left for vectors and residuals.
+const ITERATING: f64 = 0.9;
+
 /// Number of eigenpairs wanted next to a shift, on either side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Wanted {
@@ -37,7 +41,7 @@ pub(super) struct Wanted {
 }
 
 /// The eigenpairs nearest to a shift, as many as wanted on either side, or fewer if not all are found;
-/// `known` are eigenvectors to leave out, `seed` that of the random first vectors.
+/// `known` are eigenvectors to leave out, `seed` that of the random first vectors; all of it is one of the `steps`.
 ///
 /// # Errors
 /// [`SpectrumError::Matrices`] if M is not positive definite.
@@ -46,17 +50,23 @@ pub(super) fn nearest(
     factor: &Factor,
     wanted: Wanted,
     known: &[Panel],
-    seed: u64,
+    (seed, steps): (u64, Option<&Steps>),
 ) -> Result<EigenBlock, SpectrumError> {
     let mut lanczos = Lanczos::new(pencil, factor, known.to_vec(), seed)?;
     let all = wanted.left + wanted.right;
     let expected = START + (all as f64 * PACE / LANES as f64).ceil() as usize;
     let mut until = expected;
     let mut found = None;
+    // What remains is told at the end: of vectors, residuals, and panels that were not expected.
+    let (mut taken, share) = (0.0, ITERATING / expected as f64);
     while found.is_none() {
         let full = lanczos.taken() + LANES > pencil.len() || lanczos.len() >= PATIENCE * expected * LANES;
         if !full && lanczos.len() < until * LANES {
             lanczos.step()?;
+            if taken + share <= ITERATING {
+                taken += share;
+                steps.iter().for_each(|steps| steps.take(share));
+            }
             continue;
         }
         let Some(ritz) = lanczos.ritz() else { break };
@@ -67,7 +77,11 @@ pub(super) fn nearest(
             until += ritz.steps_to(wanted);
         }
     }
-    let Some((ritz, have)) = found else { return Ok(EigenBlock::default()) };
+    let rest = || steps.iter().for_each(|steps| steps.take(1.0 - taken));
+    let Some((ritz, have)) = found else {
+        rest();
+        return Ok(EigenBlock::default());
+    };
     let (left, right) = (have.left.min(wanted.left), have.right.min(wanted.right));
     let count = ritz.inverses.len();
     let numbers: Vec<usize> = (0..left).rev().chain((count - right..count).rev()).collect();
@@ -79,6 +93,7 @@ pub(super) fn nearest(
     let to = left + residuals[left..].iter().take_while(|r| **r < CHECKED).count();
     let mut piece = EigenBlock::new(values, residuals, panels, left);
     piece.keep(from..to);
+    rest();
     Ok(piece)
 }
 

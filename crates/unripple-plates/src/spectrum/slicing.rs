@@ -8,6 +8,7 @@ use super::plan::{Plan, Shift, factor_near};
 use super::shift_invert::{Wanted, nearest};
 use super::small::transposed;
 use rayon::prelude::*;
+use unripple_core::{Observed, Steps};
 
 /// Number of eigenpairs requested from a shift beyond its share, so that clusters need not be divided.
 /// Doubled, each shift computes two more that are not needed.
@@ -47,15 +48,21 @@ impl Gap {
 ///
 /// # Errors
 /// [`SpectrumError::Missed`] if their number is not that given by inertia.
-pub(super) fn all(pencil: &Pencil, mut plan: Plan) -> Result<Vec<EigenBlock>, SpectrumError> {
+pub(super) fn all(
+    pencil: &Pencil,
+    mut plan: Plan,
+    observed: &Observed,
+) -> Result<Vec<EigenBlock>, SpectrumError> {
     let gaps = gaps(&plan);
+    observed.part(|| format!("{} modes from {} shifts", plan.below, plan.shifts.len()));
+    let steps = observed.steps(plan.shifts.len());
     let wanted: Vec<Wanted> =
         gaps.windows(2).enumerate().map(|(i, pair)| wanted(pair, i, gaps.len())).collect();
     let pieces: Vec<EigenBlock> = std::mem::take(&mut plan.shifts)
         .into_par_iter()
         .zip(&wanted)
         .enumerate()
-        .map(|(i, (shift, wanted))| shift_invert(pencil, shift, *wanted, i as u64))
+        .map(|(i, (shift, wanted))| shift_invert(pencil, shift, *wanted, i as u64, &steps))
         .collect::<Result<_, _>>()?;
     let parted: Vec<Option<usize>> = gaps.iter().enumerate().map(|(i, gap)| part(gap, i, &pieces)).collect();
     let mut out: Vec<EigenBlock> = Vec::new();
@@ -111,15 +118,17 @@ fn shift_invert(
     shift: Shift,
     wanted: Wanted,
     seed: u64,
+    steps: &Steps,
 ) -> Result<EigenBlock, SpectrumError> {
     if wanted == Wanted::default() {
+        steps.take(1.0);
         return Ok(EigenBlock::default());
     }
     let factor = match shift.factor {
         Some(factor) => factor,
         None => factor_near(pencil, shift.at, 0.0)?,
     };
-    nearest(pencil, &factor, wanted, &[], seed)
+    nearest(pencil, &factor, wanted, &[], (seed, Some(steps)))
 }
 
 /// The number of a gap's eigenpairs to take from the shift at its start; the others are taken from the shift at its end. `None` if
@@ -159,7 +168,7 @@ fn resolve(pencil: &Pencil, gap: &Gap) -> Result<EigenBlock, SpectrumError> {
         if wanted == Wanted::default() {
             break;
         }
-        let mut piece = nearest(pencil, &factor, wanted, &whole.panels, round as u64)?;
+        let mut piece = nearest(pencil, &factor, wanted, &whole.panels, (round as u64, None))?;
         let from = piece.values.partition_point(|value| *value <= gap.from);
         piece.keep(from..piece.values.partition_point(|value| gap.holds(*value)).max(from));
         if piece.values.is_empty() {

@@ -32,6 +32,7 @@ pub fn run_with(ask: &Ask, hands: Hands, progress: &mut dyn Progress) -> Result<
     Library::may_be_at(&ask.output)?;
     let figure = figure::place(ask)?;
     go_on(progress)?;
+    progress.stage("modes");
     let Responses::Modal(model) = judge::model(&surface, None, &[])? else {
         return Err(TaskError::Input("expected a surface, found responses at points".into()));
     };

@@ -48,18 +48,23 @@ pub struct Compared {
 }
 
 /// Computes and evaluates the drive of every method on a surface, and where there is no other surface the tradeoff curves of the methods'
-/// parameters.
+/// parameters. `of` says in stages which surface it is, where there are several.
 pub(super) fn on(
     ask: &Ask,
     surface: &Surface,
-    label: String,
+    (label, of): (String, &str),
     progress: &mut dyn Progress,
 ) -> Result<Compared, TaskError> {
     let solved = Solved::default();
+    progress.stage(&format!("{of}responses"));
     let known = solved.model(surface, None, &[])?;
     let targets = targets(&ask.points, &ask.shapes, known.conditions().lambda_min)?;
+    go_on(progress)?;
+    progress.stage(&format!("{of}{}", judge::RESPONSES));
     let (judge::Models { free: plant, .. }, judging) = judge::models(surface, ask.judge_hz, &[], &solved)?;
     let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+    go_on(progress)?;
+    progress.stage(&format!("{of}window"));
     let chosen = asked.is_none().then(|| chosen_window(surface, &known));
     let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
     carries(known.conditions(), window, "window_s")?;

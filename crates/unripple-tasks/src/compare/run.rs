@@ -89,8 +89,7 @@ fn each(
     for (surface, label) in surfaces.iter().zip(labels) {
         go_on(progress)?;
         let of = if alone { String::new() } else { format!("{label}: ") };
-        progress.stage(&format!("{of}responses"));
-        match compared::on(ask, surface, label.clone(), progress) {
+        match compared::on(ask, surface, (label.clone(), &of), progress) {
             Ok(on) if alone => return Ok(On::One(Box::new(on))),
             Ok(on) => done.push(on),
             Err(error) if alone || matches!(error, TaskError::Cancelled) => return Err(error),

@@ -11,5 +11,6 @@ use crate::{Progress, TaskError, go_on};
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let surface = ask.surface.load()?;
     go_on(progress)?;
+    progress.stage("modes and window");
     unripple::physics::design(&surface).map_err(TaskError::input)
 }

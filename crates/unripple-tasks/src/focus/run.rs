@@ -5,11 +5,12 @@ use crate::figures::Columns;
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
-use crate::{Progress, Source, TaskError, fingers, folder, go_on, judge, source};
+use crate::{Progress, Solved, Source, TaskError, fingers, folder, go_on, judge, source};
 use unripple::act::{self, Act, Aware, Note};
-use unripple::core::{Decay, Surface};
+use unripple::core::{Decay, Responses, Surface};
 use unripple::focus::{LossCorrection, Method, Options};
 use unripple::physics::Medium;
+use unripple::physics::design::Recommended;
 
 /// Computes a drive that focuses on points and shapes, evaluates it, and writes it to a folder if one is given.
 ///
@@ -48,6 +49,7 @@ fn kept(
     let out = folder::begin(ask.output.as_deref(), ask)?;
     let mut made = make_on(ask, open(progress)?, progress)?;
     if let Some((out, record)) = out {
+        progress.stage("figures");
         write::write(&out, &mut made, &record, drawn)?;
         folder::finish(out, progress)?;
     }
@@ -79,22 +81,20 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let places: Vec<_> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
     progress.stage("responses");
     let (surface, responses, stored) = source.respond(&places, ask.between)?;
-    let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
-    let chosen = asked.is_none().then(|| solved.window(&surface, &responses));
-    let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
-    carries(responses.conditions(), window, "window_s")?;
+    let (window, chosen) = window(ask, (&surface, &responses), &solved, progress)?;
     let settings = settings(ask, &surface, window)?;
     let aware = aware(ask, &surface)?;
     go_on(progress)?;
     progress.stage("drive");
     let focuser = aware.focuser(&responses, &settings)?;
     let focused = focuser.focus(&targets).map_err(act::ActError::from);
-    let focused = focused.map_err(|error| of_window(error.into(), asked.is_some()))?;
+    let focused = focused.map_err(|error| of_window(error.into(), ask.window_s.is_some()))?;
     let restored = aware.note(&responses, &targets, &settings, &focused)?;
     go_on(progress)?;
 
     let judged_surface = plant.as_ref().unwrap_or(&surface);
     let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", judged_surface)?;
+    progress.stage(judge::RESPONSES);
     // A library is evaluated on itself.
     let modelled = plant.is_some() || stored.is_none();
     let models =
@@ -104,7 +104,11 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let level = ask.level.level_on(unscaled.as_deref())?;
     let act = Act { surface: judged_surface, responses: under, targets: &targets, options: &settings, level };
     let on = act.readouts();
+    go_on(progress)?;
+    progress.stage("level");
     let sent = act.send(&focuser, focused, &on)?;
+    go_on(progress)?;
+    progress.stage("evaluation");
     let judged = judge::seen(sent.until, progress, || act.judge(&sent, &on))?;
     let (focused, drive) = (sent.focused, sent.drive);
     let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
@@ -123,6 +127,24 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let surface = judged_surface.clone();
     drop(focuser);
     Ok(Made { report, drive, judged, focused, surface, responses, scaled: unscaled.is_none() })
+}
+
+/// The window in s: the one asked for, or the one that the surface and its responses are best used with, which is told as well.
+fn window(
+    ask: &Ask,
+    (surface, responses): (&Surface, &Responses),
+    solved: &Solved,
+    progress: &mut dyn Progress,
+) -> Result<(f64, Option<Recommended>), TaskError> {
+    let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+    if asked.is_none() {
+        go_on(progress)?;
+        progress.stage("window");
+    }
+    let chosen = asked.is_none().then(|| solved.window(surface, responses));
+    let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
+    carries(responses.conditions(), window, "window_s")?;
+    Ok((window, chosen))
 }
 
 /// Fields that need a model, and whether they were given.

@@ -52,10 +52,12 @@ pub(super) fn prepare(ask: &Ask, progress: &mut dyn Progress) -> Result<Prepared
     if let Some(window) = ask.window_s.filter(|window| *window > LONGEST_WINDOW) {
         return Err(TaskError::ask("window_s", format!("at most {LONGEST_WINDOW} s"), window));
     }
+    progress.stage("responses");
     let responses = Arc::new(match source.stored {
         Some(stored) => Responses::Sampled(stored.responses),
         None => judge::model(&surface, None, &[])?,
     });
+    progress.stage("window and level");
     let window = window(ask, &surface, &responses)?;
     let mut settings = LiveOptions::new(&surface, window.seconds);
     settings.focus.method = ask.method;
@@ -82,6 +84,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     if let Some(listener) = touches.listener() {
         engine = engine.with_listener(listener);
     }
+    progress.over();
     touches.told.iter().for_each(|line| progress.tell(line));
     let mut session = Session { ask, touches, report, told: 0.0, progress };
     let seconds = seconds_to_play(ask, session.touches.lasts)?;

@@ -18,6 +18,7 @@ pub(crate) fn keep(
     let Some((out, record)) = out else { return Ok(made.report) };
     write_wav(out.path().join("drive.wav"), &made.drive)?;
     made.report.files = vec!["drive.wav".into()];
+    progress.stage("figures");
     if let Some(columns) = drawn {
         made.report.files.extend(figures::write(&out, &columns.fit(pictures(&made)))?);
     }

@@ -45,6 +45,9 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         return Err(TaskError::Work("expected a model with modes, found samples".into()));
     };
     go_on(progress)?;
+    if ask.length_s.is_none() {
+        progress.stage("length");
+    }
     let plan = plan(ask, &surface, &modal)?;
     go_on(progress)?;
     let mut library = Library::create(&ask.output, &plan)?;

@@ -71,6 +71,7 @@ pub fn run(
     // The modes of a surface that needs a mesh take seconds, in which nothing asks whether to go on.
     let viewer = apart(ask.clone(), open, progress)?;
     go_on(progress)?;
+    progress.over();
     let (url, elsewhere) = (viewer.url(), viewer.elsewhere());
     let report = Report { url, elsewhere, framed_by: ask.framed_by.clone() };
     opened(&report)?;
@@ -99,6 +100,7 @@ fn open(ask: &Ask, progress: &mut dyn Progress) -> Result<Viewer, TaskError> {
         folder: ask.folder.clone(),
         quiet: false,
     };
+    progress.stage("modes");
     Ok(view.open()?)
 }
 

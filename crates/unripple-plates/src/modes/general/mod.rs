@@ -11,7 +11,7 @@ use crate::fabric::Fabric;
 use crate::mesh::Mesh;
 use crate::spectrum::{self, Pairs};
 use sizing::Plan;
-use unripple_core::Surface;
+use unripple_core::{Observed, Surface};
 use unripple_linalg::{ColRef, Mat, sparse_times};
 
 /// Largest number of meshes solved, each finer than the one before by 1.25 to 2, so that the last is up to 32 times finer than
@@ -38,10 +38,11 @@ const ORDER: i32 = 6;
 pub(super) fn solve(surface: &Surface, bounds: &Bounds) -> Result<Found, PhysicsError> {
     let fabric = Fabric::of(surface)?;
     let mut plan = Plan::new(surface, &fabric, bounds)?;
-    let mut coarse = modes(surface, &fabric, bounds, &plan.coarser(COARSER))?;
+    let mesh = |number: usize| Observed::here().within(format!("mesh {number} of {} at most", 1 + ROUNDS));
+    let mut coarse = modes(surface, &fabric, bounds, &plan.coarser(COARSER), &mesh(1))?;
     let (mut error, mut last) = (f64::INFINITY, f64::INFINITY);
-    for _ in 0..ROUNDS {
-        let fine = modes(surface, &fabric, bounds, &plan)?;
+    for round in 0..ROUNDS {
+        let fine = modes(surface, &fabric, bounds, &plan, &mesh(2 + round))?;
         let ratio = if plan.ratio() > 1.0 { plan.ratio() } else { COARSER };
         error = change(&coarse.pairs.values, &fine.pairs.values) / (ratio.powi(ORDER) - 1.0);
         if error <= bounds.accuracy {
@@ -67,13 +68,23 @@ struct Solution {
 }
 
 /// Meshes a sheet as planned, assembles its matrices and solves for the modes below the top.
-fn modes(surface: &Surface, fabric: &Fabric, bounds: &Bounds, plan: &Plan) -> Result<Solution, PhysicsError> {
+fn modes(
+    surface: &Surface,
+    fabric: &Fabric,
+    bounds: &Bounds,
+    plan: &Plan,
+    observed: &Observed,
+) -> Result<Solution, PhysicsError> {
     guard(surface, bounds, plan)?;
+    observed.part(|| "triangles".into());
     let mesh = Mesh::new(&surface.outline, &plan.sizing())?;
     let space = Space::new(&mesh, fabric.bends());
+    observed.part(|| "matrices".into());
     let forms = space.assemble(fabric);
-    let pairs = spectrum::below(forms.stiffness.as_ref(), forms.mass.as_ref(), bounds.top_square())
-        .map_err(|error| PhysicsError::Solver { max_hz: bounds.max_hz, found: error.to_string() })?;
+    let observed = observed.within(format!("{} unknowns", forms.mass.nrows()));
+    let pairs =
+        spectrum::below(forms.stiffness.as_ref(), forms.mass.as_ref(), bounds.top_square(), &observed)
+            .map_err(|error| PhysicsError::Solver { max_hz: bounds.max_hz, found: error.to_string() })?;
     if pairs.residual > RESIDUAL {
         let found = format!("residuals of up to {:e}", pairs.residual);
         return Err(PhysicsError::Solver { max_hz: bounds.max_hz, found });

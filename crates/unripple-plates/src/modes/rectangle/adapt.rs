@@ -9,7 +9,7 @@ use crate::PhysicsError;
 use crate::modes::memory::{GIB, MEMORY};
 use rayon::prelude::*;
 use std::f64::consts::PI;
-use unripple_core::Edge;
+use unripple_core::{Edge, Observed};
 use unripple_linalg::{Mat, Par};
 
 /// Largest number of rounds, each with up to 1.6 times as many polynomials as the one before. More would only delay the
@@ -38,10 +38,14 @@ pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
     let mut counts = first_counts(problem, problem.bounds.k_top);
     let mut before: Option<(f64, f64)> = None;
     let (mut best, mut stalled) = (f64::INFINITY, 0);
-    for _ in 0..ROUNDS {
+    let observed = Observed::here();
+    for round in 1..=ROUNDS {
         guard(problem, counts)?;
+        let [x, y] = counts;
+        observed.part(|| format!("{x} x {y} functions, round {round} of {ROUNDS} at most"));
         let plate = plate(problem, counts);
-        let Some(blocks) = solve_blocks(&plate, counts, problem.bounds.top_square()) else { break };
+        let solved = solve_blocks(&plate, counts, problem.bounds.top_square(), &observed);
+        let Some(blocks) = solved else { break };
         let error = blocks.iter().map(|b| b.error).fold(0.0, f64::max);
         if error <= problem.bounds.accuracy {
             return Ok(Solution { blocks, error, lines: plate.lines });
@@ -125,12 +129,14 @@ fn plate(problem: &Problem, counts: [usize; 2]) -> Plate {
 }
 
 /// The modes of every symmetry class, shared among threads; `None` if one does not converge.
-fn solve_blocks(plate: &Plate, counts: [usize; 2], top: f64) -> Option<Vec<BlockModes>> {
+fn solve_blocks(plate: &Plate, counts: [usize; 2], top: f64, observed: &Observed) -> Option<Vec<BlockModes>> {
     let classes = [0, 1].map(|axis| plate.lines[axis].classes(counts[axis]));
     let symmetries = Symmetry::all(&classes[0], &classes[1], plate.square);
     let par = if symmetries.len() == 1 { Par::rayon(0) } else { Par::Seq };
+    let steps = observed.steps(symmetries.len());
+    let block = |(symmetry, _): &(_, _)| solve_block(plate, *symmetry, top, par);
     let solved: Option<Vec<BlockModes>> =
-        symmetries.par_iter().map(|(symmetry, _)| solve_block(plate, *symmetry, top, par)).collect();
+        symmetries.par_iter().map(block).inspect(|_| steps.take(1.0)).collect();
     let mut blocks = rigid(plate, counts);
     for (block, (_, twice)) in solved?.into_iter().zip(symmetries) {
         let other = twice.then(|| block.mirrored());

@@ -114,7 +114,9 @@ fn beams_across_each_other_add_up() {
     let [[b, m], [c, l]] = [128, 8].map(beam);
     let stiffness = b.times(&l).plus(m.times(&c)).matrix();
     let all = |k: &Entries, m: &Entries| {
-        below(k.matrix().as_ref(), m.matrix().as_ref(), 1e6).expect("eigenpairs of a beam").values
+        below(k.matrix().as_ref(), m.matrix().as_ref(), 1e6, &Observed::default())
+            .expect("eigenpairs of a beam")
+            .values
     };
     let (long, short) = (all(&b, &m), all(&c, &l));
     // The root of cos x cosh x = 1, to the fourth power.

@@ -5,6 +5,7 @@ mod faults;
 mod random;
 
 use super::{Pairs, below, count_below};
+use unripple_core::Observed;
 use unripple_linalg::sparse::{SparseColMat, Triplet};
 use unripple_linalg::{product, sparse_times};
 
@@ -87,7 +88,7 @@ fn bound_near(values: &[f64], near: f64) -> f64 {
 /// Finds all below a bound and compares with what is expected: values relatively, but not below `floor`.
 fn check(stiffness: &Sparse, mass: &Sparse, top: f64, expected: &[f64], tolerance: f64, floor: f64) -> Pairs {
     assert_eq!(count_below(stiffness.as_ref(), mass.as_ref(), top), Ok(expected.len()));
-    let pairs = below(stiffness.as_ref(), mass.as_ref(), top).expect("eigenpairs");
+    let pairs = below(stiffness.as_ref(), mass.as_ref(), top, &Observed::default()).expect("eigenpairs");
     assert_eq!(pairs.values.len(), expected.len());
     let worst = pairs.values.iter().zip(expected).map(|(a, b)| (a - b).abs() / b.abs().max(floor));
     let worst = worst.fold(0.0, f64::max);

@@ -1,0 +1,203 @@
+//! Observers of long computations: what is being computed, and how much of it is done.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Parts of a step that are counted: fine enough for a bar, and far more steps fit than any computation has.
+const PARTS: f64 = 1e6;
+
+/// Whoever is told how far a long computation has come. It is called on any thread that takes part, rarely enough that a lock costs
+/// nothing.
+pub trait Observer: Send + Sync {
+    /// A part of the computation begins; `what` it is, in words.
+    fn part(&self, what: &str);
+
+    /// The share (0 to 1) of that part that is done.
+    fn done(&self, share: f64);
+}
+
+thread_local! {
+    /// The observer of what this thread computes.
+    static HERE: RefCell<Option<Arc<dyn Observer>>> = const { RefCell::new(None) };
+}
+
+/// The observer of a computation, if it has one. The computation takes it from the thread that begins it, and hands it to threads that take
+/// part, so that no function on the way has to know of it. It changes no result.
+///
+/// ```
+/// use std::sync::{Arc, Mutex};
+/// use unripple_core::{Observed, Observer};
+///
+/// #[derive(Default)]
+/// struct Log(Mutex<Vec<String>>);
+///
+/// impl Observer for Log {
+///     fn part(&self, what: &str) {
+///         self.0.lock().unwrap().push(what.into());
+///     }
+///
+///     fn done(&self, share: f64) {
+///         self.0.lock().unwrap().push(format!("{:.0} %", 100.0 * share));
+///     }
+/// }
+///
+/// fn long_sum(count: usize) -> usize {
+///     let observed = Observed::here();
+///     observed.part(|| format!("{count} numbers"));
+///     let steps = observed.steps(count);
+///     (0..count).inspect(|_| steps.take(1.0)).sum()
+/// }
+///
+/// let log = Arc::new(Log::default());
+/// let sum = Observed::by(Some(log.clone())).during(|| long_sum(4));
+/// assert_eq!((sum, long_sum(4)), (6, 6));
+/// assert_eq!(*log.0.lock().unwrap(), ["4 numbers", "25 %", "50 %", "75 %", "100 %"]);
+/// ```
+#[derive(Clone, Default)]
+pub struct Observed(Option<Arc<dyn Observer>>);
+
+impl std::fmt::Debug for Observed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Observed").field("observer", &self.0.is_some()).finish()
+    }
+}
+
+impl Observed {
+    /// Observed by `observer`, or by nobody.
+    pub fn by(observer: Option<Arc<dyn Observer>>) -> Self {
+        Self(observer)
+    }
+
+    /// The observer of what this thread computes.
+    pub fn here() -> Self {
+        Self(HERE.with_borrow(Clone::clone))
+    }
+
+    /// Runs `work` on this thread with this observer; afterwards the thread has the observer that it had before.
+    pub fn during<T>(&self, work: impl FnOnce() -> T) -> T {
+        let _back = Back(HERE.replace(self.0.clone()));
+        work()
+    }
+
+    /// The same observer, told of all parts as parts of `whole`.
+    #[must_use]
+    pub fn within(&self, whole: impl Into<String>) -> Self {
+        let within = |to: &Arc<dyn Observer>| -> Arc<dyn Observer> {
+            Arc::new(Within { whole: whole.into(), to: to.clone() })
+        };
+        Self(self.0.as_ref().map(within))
+    }
+
+    /// Tells that a part begins, in words that are made only if somebody is told.
+    pub fn part(&self, what: impl FnOnce() -> String) {
+        if let Some(observer) = &self.0 {
+            observer.part(&what());
+        }
+    }
+
+    /// Tells the share (0 to 1) of the part that is done.
+    pub fn done(&self, share: f64) {
+        if let Some(observer) = &self.0 {
+            observer.done(share.clamp(0.0, 1.0));
+        }
+    }
+
+    /// A count of the steps of a part, `total` of them, which may be taken on several threads.
+    pub fn steps(&self, total: usize) -> Steps {
+        Steps { observed: self.clone(), total: total.max(1) as f64, taken: AtomicU64::new(0) }
+    }
+}
+
+/// Gives a thread the observer of before back, also after a panic.
+struct Back(Option<Arc<dyn Observer>>);
+
+impl Drop for Back {
+    fn drop(&mut self) {
+        HERE.set(self.0.take());
+    }
+}
+
+/// An observer that is told of parts of a whole.
+struct Within {
+    whole: String,
+    to: Arc<dyn Observer>,
+}
+
+impl Observer for Within {
+    fn part(&self, what: &str) {
+        self.to.part(&format!("{}: {what}", self.whole));
+    }
+
+    fn done(&self, share: f64) {
+        self.to.done(share);
+    }
+}
+
+/// The steps of a part that are done, counted on all threads that take them.
+#[derive(Debug)]
+pub struct Steps {
+    observed: Observed,
+    total: f64,
+    /// In millionths of a step.
+    taken: AtomicU64,
+}
+
+impl Steps {
+    /// Takes one step, or a share (0 to 1) of it, and tells how much is done.
+    pub fn take(&self, share: f64) {
+        let more = (PARTS * share.clamp(0.0, 1.0)) as u64;
+        let taken = self.taken.fetch_add(more, Ordering::Relaxed) + more;
+        self.observed.done(taken as f64 / (PARTS * self.total));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    #[derive(Default)]
+    struct Log(Mutex<Vec<String>>);
+
+    impl Observer for Log {
+        fn part(&self, what: &str) {
+            self.0.lock().unwrap().push(what.into());
+        }
+
+        fn done(&self, share: f64) {
+            self.0.lock().unwrap().push(format!("{share:.2}"));
+        }
+    }
+
+    #[test]
+    fn parts_are_told_within_their_whole_and_no_longer_than_asked() {
+        let log = Arc::new(Log::default());
+        let observed = Observed::by(Some(log.clone()));
+        observed.during(|| {
+            Observed::here().part(|| "first".into());
+            Observed::here().within("whole").during(|| Observed::here().part(|| "second".into()));
+            Observed::here().part(|| "third".into());
+        });
+        Observed::here().part(|| unreachable!("nobody observes"));
+        let panics = || observed.during::<()>(|| panic!("of a test"));
+        let panicked = std::panic::catch_unwind(std::panic::AssertUnwindSafe(panics));
+        assert!(panicked.is_err());
+        Observed::here().part(|| unreachable!("nobody observes after a panic"));
+        assert_eq!(*log.0.lock().unwrap(), ["first", "whole: second", "third"]);
+    }
+
+    #[test]
+    fn steps_of_all_threads_are_counted() {
+        let log = Arc::new(Log::default());
+        let steps = Observed::by(Some(log.clone())).steps(4);
+        std::thread::scope(|scope| {
+            (0..4).for_each(|_| {
+                scope.spawn(|| (0..2).for_each(|_| steps.take(0.5)));
+            });
+        });
+        let told = log.0.lock().unwrap();
+        assert_eq!(told.len(), 8);
+        assert!(told.contains(&"1.00".to_owned()) && told.contains(&"0.50".to_owned()), "{told:?}");
+    }
+}
