@@ -45,6 +45,7 @@
 //! ```
 
 mod aim;
+mod contact;
 mod error;
 mod feeling;
 mod felt;

@@ -78,6 +78,17 @@ impl<'a> Motion<'a> {
         }
     }
 
+    /// Velocity (√J) of every mode over the next `count` samples, modes x samples.
+    pub fn velocities(&mut self, count: usize) -> Mat<f64> {
+        let mut velocities = Mat::zeros(self.velocity.len(), count);
+        let mut column = 0;
+        self.advance(count, |_, velocity| {
+            velocities.col_as_slice_mut(column).copy_from_slice(velocity);
+            column += 1;
+        });
+        velocities
+    }
+
     /// Steps until `sample` is the next to be computed, at most `stride` samples at a time.
     pub fn skip_to(&mut self, sample: usize, stride: usize) {
         while self.next < sample {

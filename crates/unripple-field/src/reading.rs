@@ -86,6 +86,10 @@ impl Source for ModalField<'_> {
         Feeling::of(self, passage).weighed()
     }
 
+    fn under(&self, contacts: &[&[(Point, f64)]]) -> Option<Vec<Vec<f64>>> {
+        Some(self.velocities_under(contacts))
+    }
+
     fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Spot> {
         let instants: Vec<usize> = requests.iter().map(|(_, sample, _)| *sample).collect();
         let states = self.states(&instants);

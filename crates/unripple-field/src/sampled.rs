@@ -149,6 +149,10 @@ impl Source for SampledField<'_> {
         }
     }
 
+    fn under(&self, _contacts: &[&[(Point, f64)]]) -> Option<Vec<Vec<f64>>> {
+        None
+    }
+
     fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Spot> {
         let mut players = HashMap::new();
         let spot = |(at, sample, quantity): &(Point, usize, Quantity)| {

@@ -105,6 +105,9 @@ pub(crate) trait Source: Send + Sync {
     /// What is felt during a passage.
     fn weighed(&self, passage: &Passage) -> Weighed;
 
+    /// The velocity under contacts at each sample of the drive, halfway through its impulse; `None` for sampled responses.
+    fn under(&self, contacts: &[&[(Point, f64)]]) -> Option<Vec<Vec<f64>>>;
+
     /// The focal spot around a point at a sample, for each request.
     fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Spot>;
 }

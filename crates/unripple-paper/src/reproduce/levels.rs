@@ -5,7 +5,8 @@ use super::{Bed, Compared, Picture, Predicted, Section, coils};
 use serde::Serialize;
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
-use unripple::core::{Drive, Point};
+use unripple::act::power;
+use unripple::core::Drive;
 use unripple::field::{Aim, Field, Measured};
 use unripple::focus::{Method, Options, Target, focus};
 use unripple::physics::design::{Deformation, Strip, deformation};
@@ -25,8 +26,8 @@ struct Played {
     method: Method,
     drive: Drive,
     measured: Measured,
-    /// Mechanical energy that the actuators give to the sheet, in J.
-    work: f64,
+    /// Mean mechanical power that the actuators give to the sheet, in W.
+    power: f64,
 }
 
 /// What one level takes with one method.
@@ -76,14 +77,11 @@ fn play(bed: &Bed, method: Method) -> Result<Played, TaskError> {
     let drive = focused.drive.as_emitted();
     let field = Field::new(&bed.responses, &drive, judge::CELLS).map_err(TaskError::input)?;
     let measured = field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(TaskError::input)?;
-    let places: Vec<Point> = bed.surface.actuators.iter().map(|a| a.at).collect();
-    let traces = field.traces(&places, bed.window).map_err(TaskError::input)?;
-    let given = |(force, trace): (&Vec<f64>, &unripple::field::Trace)| -> f64 {
-        force.iter().zip(&trace.velocity).map(|(f, v)| f * v).sum()
-    };
-    let work = drive.channels().iter().zip(&traces).map(given).sum::<f64>() / drive.rate();
+    let known = power(&bed.surface, &field, drive.duration())?;
+    let power =
+        known.ok_or_else(|| TaskError::Work("power: expected responses from modes, found samples".into()))?;
     drop(field);
-    Ok(Played { method, drive, measured, work })
+    Ok(Played { method, drive, measured, power })
 }
 
 impl Played {
@@ -106,7 +104,7 @@ impl Played {
             rms_force_n: rms,
             mean_coil_heat_printed_w: heat(FORCE_CONSTANT),
             mean_coil_heat_reachable_w: heat(reachable),
-            mean_mechanical_power_w: self.work * scale * scale / self.drive.duration(),
+            mean_mechanical_power_w: self.power * scale * scale,
             contrast: self.measured.targets.first().and_then(|t| t.displacement_contrast),
         }
     }

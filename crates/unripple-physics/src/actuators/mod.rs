@@ -11,6 +11,7 @@ mod force;
 mod moving_magnet;
 mod piezo;
 mod place;
+mod push;
 mod sensor;
 mod suspension;
 mod transducer;

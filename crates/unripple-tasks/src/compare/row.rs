@@ -5,7 +5,7 @@ use super::trade::{Trade, traded};
 use crate::TaskError;
 use serde::Serialize;
 use std::time::Instant;
-use unripple::act::{Act, Note, Strength};
+use unripple::act::{Act, Note, Strength, power};
 use unripple::field::{DriveFigures, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
 
@@ -31,6 +31,9 @@ pub struct Row {
     pub targets: Vec<TargetFigures>,
     /// Figures of the drive.
     pub drive: DriveFigures,
+    /// Mean mechanical power that the actuators give to the sheet, in W, over the whole drive or its last period.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_mechanical_power_w: Option<f64>,
     /// Strength of the drive compared with its limits.
     pub level: Strength,
     /// Notes on the drive.
@@ -60,7 +63,9 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     let sent = act.send_at_most(&focuser, focused, on)?;
     let notes = act.notes(&sent);
     let field = on.fine()?.field(&sent.drive).map_err(TaskError::input)?;
-    let Measured { targets, drive, .. } = field.measure(&sent.aims, sent.period).map_err(TaskError::input)?;
+    let Measured { targets, drive: figures, .. } =
+        field.measure(&sent.aims, sent.period).map_err(TaskError::input)?;
+    let mean_mechanical_power_w = power(surface, &field, figures.duration_s)?;
     Ok(Row {
         method: options.method.name(),
         plan_s,
@@ -70,7 +75,8 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
         peak_at_limit,
         contrast_at_limit,
         targets,
-        drive,
+        drive: figures,
+        mean_mechanical_power_w,
         level: sent.strength,
         notes,
         trade,

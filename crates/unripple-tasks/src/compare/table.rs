@@ -12,13 +12,14 @@ const METHOD: [&str; 1] = ["method"];
 const SURFACE: [&str; 4] = ["surface", "method", "window ms", "modes"];
 
 /// Headings of the figures, in the order of `figures`.
-const FIGURES: [&str; 14] = [
+const FIGURES: [&str; 15] = [
     "contrast",
     "background",
     "worst spot",
     "spot mm",
     "peak m/s",
     "energy for peak",
+    "power mW",
     "peak at limit",
     "felt dB",
     "felt contrast",
@@ -144,7 +145,7 @@ impl std::fmt::Display for Table<'_> {
         write!(
             f,
             ", simulated with modes up to {} Hz. Energy for the same peak and peak at the drive limit are relative to time \
-             reversal's{of}; felt: dB above threshold, and below the target's level; drive for the same felt level in dB over time \
+             reversal's{of}; power: mechanical, into the sheet, on average; felt: dB above threshold, and below the target's level; drive for the same felt level in dB over time \
              reversal's.",
             self.judged_to()
         )
@@ -152,7 +153,7 @@ impl std::fmt::Display for Table<'_> {
 }
 
 /// The figures of a row, of its first target.
-fn figures(row: &Row) -> [String; 14] {
+fn figures(row: &Row) -> [String; 15] {
     let number = |x: Option<f64>, digits: usize| x.map_or("-".into(), |x| format!("{x:.digits$}"));
     let target = row.targets.first();
     let of = |figure: fn(&TargetFigures) -> Option<f64>| target.and_then(figure);
@@ -163,6 +164,7 @@ fn figures(row: &Row) -> [String; 14] {
         number(of(|t| t.spot_diameter_m.map(|d| d * 1e3)), 2),
         target.map_or("-".into(), |t| three(t.peak_velocity_m_s)),
         format!("{:.2}", row.energy_for_peak),
+        row.mean_mechanical_power_w.map_or("-".into(), |watts| three(1e3 * watts)),
         three(row.peak_at_limit),
         number(of(|t| t.felt_level_db), 1),
         number(of(|t| t.felt_contrast_db), 1),

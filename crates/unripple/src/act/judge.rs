@@ -1,7 +1,7 @@
 //! Evaluation of the field of a drive on a surface: metrics, traces, maps.
 
-use super::ActError;
 use super::note::{self, Note};
+use super::{ActError, power};
 use crate::core::{Point, Surface};
 use crate::field::{Aim, Field, Measured, Reach, Trace};
 use crate::physics::design::{Linearity, linearity};
@@ -17,6 +17,8 @@ pub struct Judged {
     pub until: f64,
     /// Slopes, strains and added tension of the field; `None` for sampled responses, which are on no grid.
     pub linearity: Option<Linearity>,
+    /// Mean mechanical power into the sheet over the drive or its last period, in W; `None` for sampled responses.
+    pub power: Option<f64>,
     /// Warnings, such as where linear theory no longer holds.
     pub notes: Vec<Note>,
 }
@@ -41,7 +43,8 @@ pub fn judge(
     let found = linear(surface, &reach);
     let notes = note::all(surface, &measured, reach.displacement, &found);
     let linearity = reach.steepness.map(|_| found);
-    Ok(Judged { measured, traces, until, linearity, notes })
+    let power = power(surface, field, measured.drive.duration_s)?;
+    Ok(Judged { measured, traces, until, linearity, power, notes })
 }
 
 /// The last instant at which a field is known, in seconds.

@@ -14,6 +14,7 @@ mod felt_contrast;
 mod method_oracle;
 mod past_drift;
 mod past_reversal;
+mod power_oracle;
 mod surface_property;
 mod touch_oracle;
 mod waveform_stroke;

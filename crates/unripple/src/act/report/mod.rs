@@ -61,6 +61,10 @@ pub struct Report {
     pub linearity: Option<Linearity>,
     /// Metrics of the drive itself.
     pub drive: DriveFigures,
+    /// Mean mechanical power that the actuators give to the sheet, in W, over the whole drive or its last period; absent where the motion
+    /// under the actuators is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_mechanical_power_w: Option<f64>,
     /// Mean heat in the coils; only if the surface has some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coil_heat: Option<CoilHeat>,
@@ -122,6 +126,7 @@ impl Report {
             stroke: None,
             fingers: Vec::new(),
             linearity: judged.linearity,
+            mean_mechanical_power_w: judged.power,
             coil_heat: CoilHeat::of(surface, drive, measured.drive.duration_s),
             drive: measured.drive.clone(),
             level: None,

@@ -183,15 +183,22 @@ impl Report {
     fn drive_line(&self) -> String {
         let unit = self.actuators.first().map_or("", |a| a.unit);
         let d = &self.drive;
+        let power =
+            self.mean_mechanical_power_w.map_or(String::new(), |power| format!(", {}", power_text(power)));
         let heat = self.coil_heat.map_or(String::new(), |heat| format!(", {}", heat_text(heat)));
         format!(
-            "drive: peak {}{unit}, rms {}{unit}, energy {:.4e} {unit}²s, {:.2} % of it above the band{heat}",
+            "drive: peak {}{unit}, rms {}{unit}, energy {:.4e} {unit}²s, {:.2} % of it above the band{power}{heat}",
             prefixed(d.peak),
             prefixed(d.rms),
             d.energy,
             100.0 * d.share_above_band
         )
     }
+}
+
+/// Mean mechanical power into the sheet, in words.
+fn power_text(power: f64) -> String {
+    format!("{}W of mechanical power into the sheet on average", prefixed(power))
 }
 
 /// Mean heat in the coils, in words.

@@ -19,6 +19,7 @@ impl Report {
         self.targets = std::mem::take(&mut self.targets).into_iter().map(ratios).collect();
         self.felt_outside_db = None;
         self.linearity = None;
+        self.mean_mechanical_power_w = None;
         self.level = self.level.map(|level| level.allowing(None));
         self.notes.retain(|note| note.topic != "linear theory");
         self

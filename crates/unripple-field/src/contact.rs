@@ -1,0 +1,65 @@
+//! The velocity of the sheet under contacts, as forces in proportion to the drive meet it.
+
+use crate::Field;
+use crate::modal::ModalField;
+use crate::motion::Motion;
+use unripple_core::{Drive, Point};
+use unripple_linalg::{Mat, product};
+
+impl Field<'_> {
+    /// The drive that is simulated.
+    pub fn drive(&self) -> &Drive {
+        self.drive
+    }
+
+    /// Velocity (m/s, times the unit of the weights) under each of some contacts, which are points (m) and the weights of their velocities
+    /// in a sum, at each sample of the drive; `None` for sampled responses, which are known at their own points only.
+    ///
+    /// The drive acts as an impulse at each sample, and the velocity is the mean of those just before and just after it. An impulse does
+    /// the work of its momentum times this mean on an oscillator of any mass, so that the work on the simulated sheet comes out exactly.
+    pub fn under(&self, contacts: &[&[(Point, f64)]]) -> Option<Vec<Vec<f64>>> {
+        self.source.under(contacts)
+    }
+}
+
+impl ModalField<'_> {
+    /// The velocities that [`Field::under`] gives.
+    pub(crate) fn velocities_under(&self, contacts: &[&[(Point, f64)]]) -> Vec<Vec<f64>> {
+        let weights = self.summed(contacts);
+        let channels = self.drive.channels();
+        // Half of what the impulse of a sample adds to the velocity at once, per unit of each channel.
+        let half = Mat::from_fn(contacts.len(), channels.len(), |c, a| {
+            let added = |(m, pole): (usize, &unripple_core::Pole)| {
+                weights[(c, m)] * pole.kick()[1] * self.responses.input[(a, m)]
+            };
+            self.responses.poles.iter().enumerate().map(added).sum::<f64>() / (2.0 * self.drive.rate())
+        });
+        let mut found = vec![Vec::with_capacity(self.drive.samples()); contacts.len()];
+        let mut motion = Motion::new(self.responses, self.drive);
+        while motion.next() < self.drive.samples() {
+            let first = motion.next();
+            let count = (self.drive.samples() - first).min(self.samples_at_once());
+            let after = product(weights.as_ref(), motion.velocities(count).as_ref());
+            for (c, found) in found.iter_mut().enumerate() {
+                let added = |i: usize| {
+                    (0..channels.len()).map(|a| half[(c, a)] * channels[a][first + i]).sum::<f64>()
+                };
+                found.extend((0..count).map(|i| after[(c, i)] - added(i)));
+            }
+        }
+        found
+    }
+
+    /// Weights of each mode in the velocity under each contact, contacts x modes.
+    fn summed(&self, contacts: &[&[(Point, f64)]]) -> Mat<f64> {
+        let mut weights = Mat::zeros(contacts.len(), self.modes());
+        for (c, contact) in contacts.iter().enumerate() {
+            let points: Vec<Point> = contact.iter().map(|(point, _)| *point).collect();
+            let shapes = self.responses.shapes.at_all(&points);
+            for m in 0..self.modes() {
+                weights[(c, m)] = contact.iter().enumerate().map(|(p, (_, w))| w * shapes[(p, m)]).sum();
+            }
+        }
+        weights
+    }
+}
