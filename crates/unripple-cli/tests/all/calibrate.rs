@@ -47,6 +47,13 @@ fn killed_and_taken_up_again_is_the_same_library() {
         assert!(a == b, "point {point}");
     }
 
+    // When a library was begun is told as that of `respond` is, in ISO 8601, UTC.
+    for library in [&whole, &torn] {
+        let created = Library::open(library).unwrap().plan().provenance["created"].clone();
+        let shape: String = created.chars().map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
+        assert_eq!(shape, "0000-00-00T00:00:00Z", "{created}");
+    }
+
     let focus = ["focus", &whole, "--at", "62,90", "--window-ms", "30", "-o", &scratch.join("out")];
     let focus = json(&focus);
     assert_eq!(focus["taken_on"], "library");

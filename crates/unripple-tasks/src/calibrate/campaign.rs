@@ -4,7 +4,7 @@ use super::ask::{Ask, By};
 use super::before;
 use super::points::Places;
 use super::scale::Scales;
-use crate::{Progress, TaskError, go_on};
+use crate::{Progress, TaskError, go_on, record};
 use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -68,6 +68,7 @@ impl Campaign<'_> {
         let by = format!("{:?}", ask.by).to_lowercase();
         let provenance = BTreeMap::from([
             ("software".to_owned(), format!("unripple {}", env!("CARGO_PKG_VERSION"))),
+            ("created".to_owned(), record::now()),
             ("device".to_owned(), format!("{:?}", ask.device.device).to_lowercase()),
             ("by".to_owned(), by),
             (PROBED.to_owned(), self.places.probed.to_string()),
