@@ -62,6 +62,15 @@ export class Quantity {
     this.place();
   }
 
+  /** Sets the most that may be typed and that the slider reaches. */
+  reach(most) {
+    if (most === this.most) return;
+    Object.assign(this, { most, high: most });
+    this.number.max = most;
+    if (this.step) this.slider.max = most;
+    this.place();
+  }
+
   /** Switches both controls on or off. */
   enable(on) {
     this.number.disabled = !on;

@@ -17,7 +17,7 @@ const NUMBERS = [
   { key: 'thickness_mm', label: 'Thickness', unit: 'mm', least: 0.001, most: 100, low: 0.02, high: 4, scale: 'log' },
   { key: 'tension_n_per_m', label: 'Tension', unit: 'N/m', least: 0, most: 1e6, low: 0, high: 2000, scale: 'square', hint: '0 for a plate' },
   { key: 'decay_time_ms', label: 'Decay time', unit: 'ms', least: 0.1, most: 100000, low: 3, high: 1000, scale: 'log', hint: 'of the amplitude, to 37 % (1/e)' },
-  { key: 'band_top_hz', label: 'Top of the band', unit: 'Hz', least: 50, most: 200000, low: 300, high: 24000, scale: 'log' },
+  { key: 'band_top_hz', label: 'Top of the band', unit: 'Hz', least: 50, most: 200000, low: 300, high: 24000, scale: 'log', bound: 'band_most_hz' },
   { key: 'actuators', label: 'Actuators', least: 1, most: 64, low: 1, high: 32, step: 1, hint: 'another number moves them to new places' },
 ];
 
@@ -33,6 +33,7 @@ export class SurfaceForm {
     this.material = el('select', { on: { change: () => this.choose('material', this.material) } });
     this.numbers = NUMBERS.map((each) => ({
       key: each.key,
+      bound: each.bound,
       input: new Quantity({ ...each, change: (value, settled) => this.change(each.key, { [each.key]: value }, settled) }),
     }));
     this.fields = el('fieldset', { class: 'plain stack' },
@@ -55,7 +56,9 @@ export class SurfaceForm {
     this.showShape(values);
     options(this.edge, EDGES, values.edge, 'one for each side');
     options(this.material, (surface.materials ?? []).map((name) => [name, name]), values.material, 'as its file says');
-    for (const { key, input } of this.numbers) {
+    for (const { key, bound, input } of this.numbers) {
+      // As high as the sample rate lets modes go; a file may go a little higher, and is shown as it is.
+      if (bound && values[bound]) input.reach(Math.max(values[bound], values[key] ?? 0));
       if (this.edits.holds(key)) continue;
       const missing = key === 'decay_time_ms' ? 'varies' : '–';
       input.show(values[key] ?? null, missing);

@@ -41,6 +41,9 @@ pub enum ViewError {
     /// A surface that cannot be computed.
     #[error(transparent)]
     Physics(#[from] unripple::physics::PhysicsError),
+    /// A surface without responses, such as one that has no mode in its band.
+    #[error(transparent)]
+    Act(#[from] unripple::act::ActError),
     /// A virtual surface that cannot be simulated.
     #[error(transparent)]
     Devices(#[from] unripple_devices::DevicesError),

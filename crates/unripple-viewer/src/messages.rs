@@ -10,7 +10,7 @@ use unripple::core::{
     Surface,
 };
 use unripple::focus::Method;
-use unripple::physics::Medium;
+use unripple::physics::{Medium, sampled_hz};
 use unripple_store::{builtin_effects, to_toml};
 
 /// Points along each rim that is drawn: at the size of a screen a circle of so many looks round.
@@ -116,6 +116,7 @@ fn values(surface: &Surface) -> Value {
         "tension_n_per_m": surface.sheet.tension,
         "decay_time_ms": decay,
         "band_top_hz": surface.emission.band[1],
+        "band_most_hz": sampled_hz(surface, f64::INFINITY, 0.0),
         "shape": shape,
         "size_mm": size.iter().map(|m| m * 1e3).collect::<Vec<_>>(),
         "edge": edge,
@@ -146,4 +147,19 @@ pub fn settings(told: &Settled, instrument: &Instrument) -> Value {
         "modes": instrument.plant.modes(),
         "device": { "name": told.device, "real": spec.device.is_some() },
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_band_ends_where_samples_no_longer_tell_modes_apart() {
+        let mut film = unripple::physics::design::papers_surface();
+        for (rate, most) in [(48e3, 21_600.0), (12e3, 5400.0), (192e3, 86_400.0)] {
+            film.emission.rate = rate;
+            let found = values(&film)["band_most_hz"].as_f64().unwrap();
+            assert!((found / most - 1.0).abs() < 1e-12, "{rate}: {found}");
+        }
+    }
 }

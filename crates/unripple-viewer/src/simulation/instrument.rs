@@ -10,10 +10,11 @@ use crate::ViewError;
 use crate::stop::wanted;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
+use unripple::act::model;
 use unripple::core::{Device, Responses, SampledResponses, Surface};
 use unripple::focus::Method;
 use unripple::physics::stepper::{Plant, StepperOptions};
-use unripple::physics::{Medium, Modes, ResponseOptions, responses};
+use unripple::physics::{Medium, Modes};
 use unripple_calibrate::Ping;
 use unripple_devices::{Feeler, Handle, Virtual, VirtualOptions};
 use unripple_effects::EffectSet;
@@ -112,7 +113,7 @@ impl Instrument {
         let mut options = LiveOptions::new(surface, window.seconds);
         options.focus.method = spec.method;
         wanted(progress)?;
-        let maker = maker(&spec, accuracy, &options)?;
+        let maker = maker(&spec, &options)?;
         let level = match spec.without_scale {
             true => Level::without_scale(surface, &maker)?,
             false => Level::of(surface, &maker, false)?,
@@ -210,7 +211,7 @@ fn once<T>(progress: &mut dyn Progress, act: impl FnOnce() -> Result<T, ViewErro
 }
 
 /// The worker that computes drives; from a library, also at places between its points.
-fn maker(spec: &Spec, accuracy: f64, options: &LiveOptions) -> Result<FocusWorker, ViewError> {
+fn maker(spec: &Spec, options: &LiveOptions) -> Result<FocusWorker, ViewError> {
     let surface = &spec.surface;
     match &spec.stored {
         Some(stored) if spec.method.reverses() => {
@@ -220,10 +221,8 @@ fn maker(spec: &Spec, accuracy: f64, options: &LiveOptions) -> Result<FocusWorke
         Some(stored) => {
             Ok(FocusWorker::new(Arc::new(Responses::Sampled(stored.as_ref().clone())), &options.focus)?)
         }
-        None => {
-            let options_of = ResponseOptions { accuracy, ..ResponseOptions::default() };
-            Ok(FocusWorker::new(Arc::new(responses(surface, &options_of)?), &options.focus)?)
-        }
+        // As for the commands, which name the next mode where the band has none.
+        None => Ok(FocusWorker::new(Arc::new(model(surface, None, &[])?), &options.focus)?),
     }
 }
 

@@ -96,6 +96,17 @@ fn a_surface_that_is_played_otherwise_is_seen_while_time_stands_still() {
     assert_eq!(simulation.head(), head);
 }
 
+/// The first mode of the film is at 166 Hz.
+#[test]
+fn a_band_without_modes_is_refused_in_the_words_of_the_commands() {
+    let mut empty = spec();
+    empty.surface.emission.band = [0.0, 120.0];
+    let Err(error) = Instrument::build(empty.clone(), &mut Silent) else { panic!("a band without modes") };
+    let why = unripple::act::model(&empty.surface, None, &[]).unwrap_err().to_string();
+    assert_eq!(error.to_string(), why);
+    assert!(why.contains("found none (the next mode is at 16"), "{why}");
+}
+
 #[test]
 fn without_a_scale_the_limit_alone_sets_the_level() {
     let known = Instrument::build(spec(), &mut Silent).unwrap();
