@@ -7,10 +7,31 @@ use super::{Design, Note, milliseconds};
 
 /// The notes on the figures of a surface.
 pub(super) fn notes(ground: &Ground<'_>, design: &Design) -> Vec<Note> {
-    let mut notes = vec![growth(design), power()];
+    let mut notes = vec![which(ground, design), growth(design), power()];
     notes.extend(limits(ground.surface));
     notes.extend(left_out(ground));
     notes
+}
+
+/// Which of the contrasts to trust, and why they differ.
+fn which(ground: &Ground<'_>, design: &Design) -> Note {
+    let (refined, plain) = (design.contrast_predicted, design.contrast_plain);
+    let statistics =
+        "the modal density and the decay time of each frequency, the rim and the first reflections";
+    let text = match ground.loaded_contrast {
+        Some(_) => format!(
+            "trust the {refined:.1}: the mean over many targets, computed from this surface's own modes with its actuators where they are; \
+             other windows and numbers of actuators follow from the statistics of these modes, other bands, noise and rates from those of \
+             the band, all scaled to agree with it; the {plain:.1} by the plain form, with one density of modes and one decay time for the \
+             whole band, is there for comparison"
+        ),
+        None => format!(
+            "trust the {refined:.1} by statistics of the band more than the {plain:.1} by the plain form, since it knows {statistics}, for which the \
+             plain form has one density and one decay time; both are statistics of any sheet like this one, as its own modes were not \
+             computed, and `focus` gives the contrast of a target"
+        ),
+    };
+    Note { topic: "which contrast".into(), text }
 }
 
 /// How contrast grows with the window, and why not as its square root.

@@ -343,6 +343,27 @@ fn a_band_with_fewer_modes_than_weyls_law_has_one_has_a_design() {
     assert_eq!(error, "modes of the sheet from 0 to 230 Hz: expected at least 1, found 0");
 }
 
+/// A reader sees three contrasts for one window, and is told which to trust and why they differ.
+#[test]
+fn of_several_contrasts_one_is_to_be_trusted() {
+    let told = |design: &Design| {
+        let note = design.notes.iter().find(|note| note.topic == "which contrast").expect("a note");
+        assert!(design.to_string().contains(&note.text));
+        note.text.clone()
+    };
+    let d = paper();
+    let said = told(&d);
+    let modal = Windows::of(&papers_surface()).recommended().contrast;
+    assert!(said.starts_with(&format!("trust the {modal:.1} with the recommended window")), "{said}");
+    for other in [d.contrast_predicted, d.contrast_plain] {
+        assert!(said.contains(&format!("{other:.1} by ")), "{other}: {said}");
+    }
+    let d = design_by_law(&papers_surface(), "asked for").unwrap();
+    let said = told(&d);
+    assert!(said.starts_with(&format!("trust the {:.1} by closed forms", d.contrast_predicted)), "{said}");
+    assert!(said.contains(&format!("the {:.1} by the plain form", d.contrast_plain)), "{said}");
+}
+
 #[test]
 fn the_axes_are_the_surfaces_own() {
     let mut surface = plate_band(plate());
