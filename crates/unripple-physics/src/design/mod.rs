@@ -36,6 +36,7 @@ pub use limits::{kirchhoff_over_mindlin, limits};
 pub use linear_level::{LinearBound, LinearLevel};
 pub use linearity::{Linearity, linearity};
 pub use note::Note;
+pub use notes::rigid_motions;
 pub use paper::{film_strip, glass_strip, papers_surface};
 pub use printed::{Nature, PaperFigures, Remark};
 pub use statistics::Statistics;

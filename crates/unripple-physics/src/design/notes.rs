@@ -4,11 +4,13 @@ use super::ground::Ground;
 use super::left_out::left_out;
 use super::limits::limits;
 use super::{Design, Note, milliseconds};
+use unripple_core::Surface;
 
 /// The notes on the figures of a surface.
 pub(super) fn notes(ground: &Ground<'_>, design: &Design) -> Vec<Note> {
     let mut notes = vec![which(ground, design), growth(design), power()];
     notes.extend(limits(ground.surface));
+    notes.extend(rigid(ground));
     notes.extend(left_out(ground));
     notes
 }
@@ -32,6 +34,29 @@ fn which(ground: &Ground<'_>, design: &Design) -> Note {
         ),
     };
     Note { topic: "which contrast".into(), text }
+}
+
+/// That rigid-body motions are among the modes: of a sheet that nothing holds, in a band from 0 Hz.
+fn rigid(ground: &Ground<'_>) -> Option<Note> {
+    let count = rigid_motions(ground.surface)?;
+    let all = match &ground.counted {
+        Ok(counted) => format!(" of the {counted} modes counted"),
+        Err(_) => String::new(),
+    };
+    Some(Note {
+        topic: "rigid motions".into(),
+        text: format!(
+            "nothing holds the sheet and the band begins at 0 Hz: {count}{all} {} at 0 Hz; a band that begins above leaves that out",
+            if count == 1 { "is its motion as a rigid body," } else { "are its motions as a rigid body," }
+        ),
+    })
+}
+
+/// Number of rigid-body motions of a surface among the modes of its band: 3 of a sheet that nothing holds (up and down, and two tilts),
+/// 1 of such a sheet under tension, which resists tilts; `None` where something holds it or the band begins above 0 Hz.
+pub fn rigid_motions(surface: &Surface) -> Option<usize> {
+    let free = !surface.outline.holds() && surface.emission.band[0] <= 0.0;
+    free.then_some(if surface.sheet.tension > 0.0 { 1 } else { 3 })
 }
 
 /// How contrast grows with the window, and why not as its square root.

@@ -75,7 +75,18 @@ impl Report {
                 self.bending_shares.get(i).map_or("-".into(), |share| format!("{:.3}", 100.0 * share));
             let _ = writeln!(text, "{:6} {with} {alone} {share:>17}", i + 1);
         }
-        text + &more(rows)
+        text + &more(rows) + &self.rigid()
+    }
+}
+
+impl Report {
+    /// The line on motions as a rigid body among the modes, if there are any.
+    fn rigid(&self) -> String {
+        match self.frequencies_hz.iter().take_while(|hz| **hz == 0.0).count() {
+            0 => String::new(),
+            1 => "  the first is the motion as a rigid body of a sheet that nothing holds\n".into(),
+            n => format!("  the first {n} are the motions as a rigid body of a sheet that nothing holds\n"),
+        }
     }
 }
 
@@ -99,6 +110,6 @@ impl crate::Report for Report {
             let share = 100.0 * bending;
             let _ = writeln!(text, "{:6} {} {share:17.3}", i + 1, columns(Some(hz), Some(decay)));
         }
-        text + &more(self.count)
+        text + &more(self.count) + &self.rigid()
     }
 }

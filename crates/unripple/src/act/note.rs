@@ -4,7 +4,7 @@ use super::beyond::Beyond;
 use crate::core::{Drive, Surface};
 use crate::field::{Measured, TakenOn, TargetFigures, Threshold};
 use crate::focus::{Focused, Target};
-use crate::physics::design::{Linearity, limits};
+use crate::physics::design::{Linearity, limits, rigid_motions};
 use serde::Serialize;
 
 /// Topic of the note on why levels as felt do not hold, by which a report knows that they do not.
@@ -69,9 +69,25 @@ pub(super) fn all(surface: &Surface, measured: &Measured, largest: f64, found: &
                 part".into(),
         });
     }
+    notes.extend(rigid(surface).filter(|_| measured.taken_on == TakenOn::Grid));
     notes.extend(outside(measured));
     notes.extend(felt(measured));
     notes
+}
+
+/// A note that a sheet which nothing holds moves as a rigid body, too, in a band from 0 Hz.
+fn rigid(surface: &Surface) -> Option<Note> {
+    let count = rigid_motions(surface)?;
+    let motions =
+        if count == 1 { "its motion as a rigid body is" } else { "its 3 motions as a rigid body are" };
+    Some(Note {
+        topic: "rigid motions",
+        text: format!(
+            "nothing holds the sheet and the band begins at 0 Hz, so that {motions} among the modes: a drive pushes it away as a whole, by \
+             as much as its sum and the decay time say, and displacements and levels as felt contain that; a band that begins above 0 Hz \
+             leaves it out"
+        ),
+    })
 }
 
 /// A note on ratios that are not known, or taken over little, since hardly anything lies outside the focal discs.

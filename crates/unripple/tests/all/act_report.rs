@@ -192,3 +192,32 @@ fn coils_are_heated_by_their_currents() {
     }
     assert_eq!(run(&film(500.0), Target::at(place())).1.coil_heat, None);
 }
+
+/// A plate that lies free, with force actuators: all is computed, and its motions as a rigid body are named, in a band from 0 Hz alone.
+#[test]
+fn a_sheet_that_nothing_holds_moves_as_a_rigid_body_and_it_is_said() {
+    let mut plate = papers_surface();
+    (plate.sheet.tension, plate.sheet.thickness) = (0.0, 1e-3);
+    plate.outline.edges = unripple::core::Edges::All(unripple::core::Edge::Free);
+    for (band, tension, count) in
+        [([0.0, 3000.0], 0.0, Some(3)), ([0.0, 3000.0], 100.0, Some(1)), ([100.0, 3000.0], 0.0, None)]
+    {
+        (plate.emission.band, plate.sheet.tension) = (band, tension);
+        let responses = model(&plate, None, &[]).unwrap();
+        let Responses::Modal(modal) = &responses else { panic!("a surface without modes") };
+        let still = modal.poles.iter().filter(|pole| pole.omega == 0.0).count();
+        assert_eq!(still, count.unwrap_or(0), "{band:?}, {tension} N/m");
+        let (acted, report) = run(&(plate.clone(), responses), Target::at(place()));
+        let notes = said(&acted, "rigid motions");
+        assert_eq!(notes.len(), usize::from(count.is_some()), "{notes:?}");
+        let target = &report.targets[0];
+        let known =
+            [target.peak_velocity_m_s, target.peak_displacement_m, report.mean_mechanical_power_w.unwrap()];
+        assert!(known.iter().all(|x| x.is_finite() && x.abs() > 0.0), "{known:?}");
+        assert!(target.contrast.unwrap() > 2.0 && target.felt_level_db.is_some(), "{target:?}");
+        let design = unripple::physics::design(&plate).unwrap();
+        assert!(design.contrast_predicted.is_finite() && design.first_mode_hz > 0.0);
+        let named = design.notes.iter().any(|note| note.topic == "rigid motions");
+        assert_eq!(named, count.is_some());
+    }
+}
