@@ -89,7 +89,8 @@ class Reporting:
         targets
             Where to focus, as for :meth:`focus`.
         method
-            Methods to compare with time reversal; by default all on one surface, and ``concentrate`` on several.
+            Methods to compare with time reversal; by default every method if there is one surface, only ``concentrate``
+            if there are several.
         vary
             A key and the values that it is to have, each on a surface of its own: ``{"tension_n_per_m": [200, 300]}``.
         no_tradeoffs

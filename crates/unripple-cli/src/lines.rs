@@ -41,7 +41,7 @@ const BETWEEN: [Duration; 2] = [Duration::from_secs(3), Duration::from_secs(20)]
 /// Share of the time since the beginning that passes between lines on the same stage, within [`BETWEEN`]. Doubled, there are half as many.
 const RARER: f64 = 0.05;
 
-/// What is told as lines. Where it ends up is the caller's: every method returns the line to be printed, if there is one.
+/// Progress of a task that is printed line by line. Where it ends up is the caller's: every method returns the line to be printed, if there is one.
 #[derive(Debug)]
 pub struct Lines {
     began: Instant,

@@ -55,7 +55,7 @@ pub trait Device: Send {
 }
 
 /// Default interval between checks of a device that calls a callback ([`Device::tend`]): its loss is noticed at most this
-/// late. Doubled, it is noticed twice as late; the drive itself does not wait for it.
+/// late. With twice this interval, it is noticed twice as late; the drive itself does not wait for it.
 pub const TEND: Duration = Duration::from_millis(100);
 
 /// Name of the input that records a velocity probe on the surface, in [`Layout::inputs`].

@@ -4,7 +4,7 @@ use crate::{Point, Side};
 use std::f64::consts::PI;
 
 /// Number of straight pieces that stand for a curved side of a path, for drawing and for the inside test near a corner.
-/// Doubled, such a polygon lies four times as near its curve.
+/// With twice as many, such a polygon lies four times as near its curve.
 const FLAT: usize = 24;
 
 /// A closed curve whose bounding box has its lower-left corner at the origin. Lengths and coordinates are in metres.

@@ -18,7 +18,7 @@ pub(crate) struct Delay {
 }
 
 impl Delay {
-    /// A delay of so many channels by `samples`: a whole number, or at least [`HALF`].
+    /// A delay of `channels` channels by `samples`: a whole number, or at least [`HALF`].
     pub(crate) fn new(channels: usize, samples: f64) -> Self {
         let whole = samples.floor();
         let (weights, first) = if whole == samples {

@@ -77,7 +77,7 @@ impl Converter {
         self.random = Random::seeded(self.interface.seed ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     }
 
-    /// Whether the device is lost after so many blocks.
+    /// Whether the device is lost after `blocks` blocks.
     pub(crate) fn vanished(&self, blocks: u64) -> bool {
         self.interface.vanish_after.is_some_and(|most| blocks >= most)
     }

@@ -18,7 +18,7 @@ use unripple_core::{Device, DeviceError, Layout, State, Status};
 /// let drive = tape.into_drive();
 /// assert_eq!(drive, [[0.1, 0.2]]);
 ///
-/// // What a recorder elsewhere has heard of it:
+/// // A recording of it that was made elsewhere:
 /// let mut tape = Tape::player(layout, vec![vec![0.0, 0.3, 0.5]])?;
 /// let mut heard = [0.0; 2];
 /// tape.exchange(&[0.1, 0.2], &mut heard)?;

@@ -4,7 +4,7 @@ use pulp::NullaryFnOnce;
 use unripple_linalg::Number;
 
 /// Number of taps added at once, so that a sum is read and written once for four multiplications; the remaining taps of a
-/// kernel are added one by one. Doubled, sums are read half as often, but up to seven taps remain.
+/// kernel are added one by one. With twice as many, sums are read half as often, but up to seven taps remain.
 const TAPS: usize = 4;
 
 /// A number that multiplies and adds in one instruction where the processor can.

@@ -6,7 +6,7 @@ use crate::{kaiser, sinc};
 /// the rate; doubled, it is half as wide for twice the multiplications.
 const ZEROS: usize = 48;
 
-/// Shape of the Kaiser window: side lobes below -110 dB. Doubled, they would sink below what float32 files
+/// Shape of the Kaiser window: side lobes below -110 dB. With twice this value, they would sink below what float32 files
 /// hold, for a transition about twice as wide.
 const BETA: f64 = 11.5;
 

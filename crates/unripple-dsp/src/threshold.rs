@@ -53,7 +53,7 @@ impl Default for Threshold {
 
 impl Threshold {
     /// Spread of thresholds between persons: they differ from the published curve by up to about this many dB either way.
-    /// Doubled, the levels above threshold of one drive would spread over 24 dB.
+    /// With twice this spread, the levels above threshold of one drive would spread over 24 dB.
     pub const BETWEEN_PERSONS_DB: f64 = 6.0;
 
     /// Highest frequency, in Hz, at which the published curve rests on measurements, which are of sustained vibration. Levels above it are

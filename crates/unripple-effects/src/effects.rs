@@ -7,7 +7,7 @@ use crate::{Cue, EffectSet, EffectsError, Kind, Level, Region, Start, limits};
 use std::collections::BTreeMap;
 use unripple_core::{Outline, Phase, Point, Touch};
 
-/// Largest time accepted, in s: there the rounding of f64 is a tenth of a millisecond. Doubled, it is two tenths.
+/// Largest time accepted, in s: there the rounding of f64 is a tenth of a millisecond. With twice this time, it is two tenths.
 const LARGEST_TIME: f64 = 1e12;
 /// Bits of a voice's number for the effect, and as many below them for its part; the contact is above. This allows
 /// 256 effects in a set, of which [`limits::MOST_EFFECTS`] permits 64.

@@ -40,35 +40,37 @@ pub const ANGLE: [f64; 2] = [-13.0, 13.0];
 /// Longest envelope or score, and greatest total duration of the waveforms of a set, in s: 23 MB at 48 kHz. Doubled,
 /// they take twice the memory.
 pub const LONGEST: f64 = 120.0;
-/// Most effects of a set: each is evaluated at every touch. Doubled, touches take up to twice as long.
+/// Largest number of effects in a set: each is evaluated at every touch. With twice this value, a touch takes up to twice as long to
+/// process.
 pub const MOST_EFFECTS: usize = 64;
-/// Most points of a curve. Doubled, curves take up to twice the memory.
+/// Largest number of points of a curve. With twice this value, curves take up to twice the memory.
 pub const MOST_POINTS: usize = 16_384;
-/// Most corners of a region or of a shape: each is tested at every touch. Doubled, touches take up to twice as long.
+/// Largest number of corners of a region or of a shape: each is tested at every touch. With twice this value, a touch takes up to twice
+/// as long to process.
 pub const MOST_CORNERS: usize = 1024;
-/// Most events of a score: the same number as [`MOST_CUES`], the most cues of one call.
+/// Largest number of events of a score: the same as [`MOST_CUES`], the largest number of cues of one call.
 pub const MOST_EVENTS: usize = 4096;
-/// Most points of a shape that is played on all points at once: the focus uses the responses of each. Doubled, such a
-/// focus takes twice as long to compute.
+/// Largest number of points of a shape that is played on all points at once: the focus uses the responses of each. With twice this
+/// value, such a focus takes twice as long to compute.
 pub const MOST_AT_ONCE: usize = 256;
-/// Greatest number of pulses that a pulse train can be given: 17 minutes at the highest rate. Doubled, twice as long.
+/// Greatest number of pulses that a pulse train can be given: 17 minutes at the highest rate. Twice as many take twice as long.
 pub const MOST_COUNT: u32 = 1_000_000;
 
-/// Most fingers tracked at once; further ones are ignored until one of these is lifted. Doubled, calls take up to twice
-/// as long.
+/// Largest number of fingers tracked at once; further ones are ignored until one of these is lifted. With twice this value, calls take up
+/// to twice as long.
 pub const MOST_FINGERS: usize = 64;
-/// Most scores that run at once without a finger: each is evaluated at every call. Doubled, calls take up to twice as
-/// long.
+/// Largest number of scores that run at once without a finger: each is evaluated at every call. With twice this value, calls take up to
+/// twice as long.
 pub const MOST_SCORES: usize = 64;
-/// Most cues that one call adds, not counting stops: a bound on the time that a call takes. Doubled, twice the time at
-/// worst.
+/// Largest number of cues that one call adds, not counting stops: a bound on the time that a call takes. With twice this value, a call
+/// takes twice the time at worst.
 pub const MOST_CUES: usize = 4096;
-/// Most pulses that one effect gives for one movement of one finger; a longer movement gives no more. Doubled, a finger that
-/// jumps sets off up to twice as many.
+/// Largest number of pulses that one effect gives for one movement of one finger; a longer movement gives no more. With twice this
+/// value, a finger that jumps sets off up to twice as many.
 pub const MOST_IN_STEP: usize = 64;
 /// How late a timed pulse may still be cued, in s; pulses that are overdue by more are skipped. Doubled, a player that
 /// was interrupted catches up with more pulses at once.
 pub const LATEST: f64 = 0.25;
 /// How long a finger is assumed to keep its velocity when no touch event arrives, in s, so that the pulses of textures come
-/// evenly between two events. Doubled, textures go on for longer after a finger has stopped.
+/// evenly between two events. With twice this time, textures go on for longer after a finger has stopped.
 pub const HOLD: f64 = 0.05;

@@ -8,7 +8,7 @@ use crate::{FieldError, Grid, Readout, Trace};
 use unripple_core::{Conditions, Drive, Point, Responses, require};
 use unripple_dsp::Threshold;
 
-/// Values that snapshots or traces may hold in all: 800 MB of traces. Doubled, twice the memory.
+/// Values that snapshots or traces may hold in all: 800 MB of traces. Twice as many take twice the memory.
 const MOST_VALUES: usize = 100_000_000;
 
 /// What a drive does to a surface: velocity and displacement anywhere, at any time.

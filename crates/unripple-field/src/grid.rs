@@ -3,7 +3,7 @@
 use crate::FieldError;
 use unripple_core::{Conditions, Point, require};
 
-/// Most cells of a grid: each is read at every sample. Doubled, the largest fields take twice the time.
+/// Largest number of cells of a grid: each is read at every sample. With twice this value, the largest fields take twice the time.
 const MOST_CELLS: f64 = 4e6;
 
 /// A grid of rectangular cells over the bounding box of a surface; fields are evaluated at the centres of the cells

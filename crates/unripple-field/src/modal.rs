@@ -14,7 +14,7 @@ const POINTS: usize = 256;
 /// Samples of a block of the field; see [`POINTS`].
 const SAMPLES: usize = 128;
 
-/// Values of states (modes x samples) that are held at once, up to 32 MiB of them. Doubled, twice the memory.
+/// Values of states (modes x samples) that are held at once, up to 32 MiB of them. Twice as many take twice the memory.
 pub(crate) const STATES: usize = 1 << 22;
 
 /// Most readout weights of a block, 128 MiB of them in each thread: blocks of fewer points for more than 65 536 modes. Doubled,
@@ -22,7 +22,7 @@ pub(crate) const STATES: usize = 1 << 22;
 const READ: usize = 1 << 24;
 
 /// Most readout weights that are kept between surveys, half a GiB of them; if there are more, they are computed again
-/// for each block of time. Doubled, a GiB.
+/// for each block of time. Twice as many take a GiB.
 const KEPT: usize = 1 << 27;
 
 /// The field of a modal system: states of all modes over time, read out in blocks and never stored as a whole.
@@ -30,7 +30,7 @@ const KEPT: usize = 1 << 27;
 pub(crate) struct ModalField<'a> {
     /// Poles, input weights and shapes.
     pub(crate) responses: &'a ModalResponses,
-    /// What is sent.
+    /// The drive of the actuators.
     pub(crate) drive: &'a Drive,
     pub(crate) kept: Arc<Kept>,
 }

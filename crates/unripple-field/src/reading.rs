@@ -11,7 +11,7 @@ use std::ops::Range;
 use unripple_core::{Observed, Point};
 use unripple_linalg::{Mat, Number, product};
 
-/// Most samples from the start of a drive: 7 minutes at 48 kHz. Doubled, twice as long.
+/// Largest number of samples from the start of a drive: 7 minutes at 48 kHz. Twice as many: 14 minutes.
 const MOST_SAMPLES: usize = 20_000_000;
 
 impl Source for ModalField<'_> {

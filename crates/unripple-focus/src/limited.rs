@@ -5,7 +5,7 @@ use crate::state::State;
 use crate::{FocusError, Shaping};
 use unripple_linalg::{Lu, Mat, MatRef, Scale, product};
 
-/// Most steps of Newton's method. Doubled, a problem that does not converge takes twice as long to fail.
+/// Largest number of steps of Newton's method. With twice this value, a problem that does not converge takes twice as long to fail.
 const STEPS: usize = 80;
 
 /// The duality gap it stops at, as a share of the objective: that is how far the drive may be from the best.

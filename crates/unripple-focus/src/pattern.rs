@@ -4,7 +4,7 @@ use crate::FocusError;
 use std::f64::consts::PI;
 use unripple_core::{Point, require};
 
-/// Most points that a pattern is sampled into: each has responses of its own. Doubled, the largest patterns
+/// Largest number of points that a pattern is sampled into: each has responses of its own. With twice this value, the largest
 /// take twice the time.
 const MOST_POINTS: usize = 100_000;
 

@@ -10,10 +10,10 @@ use unripple_core::{Drive, Point, Responses, require, window_samples};
 /// that are right to 1e-8.
 const FORGOTTEN: f64 = 9.2;
 
-/// Most samples of all recordings together, half a GiB of them. Doubled, a GiB.
+/// Most samples of all recordings together, half a GiB of them. Twice as many take a GiB.
 const MOST_VALUES: usize = 1 << 26;
 
-/// Most points of all pulses together, whose responses make a square matrix of half a GiB. Doubled, one four times as large.
+/// Most points of all pulses together, whose responses make a square matrix of half a GiB. Twice as many make one four times as large.
 const MOST_POINTS: usize = 1 << 13;
 
 /// A focal pulse: where, when, and with which velocity.

@@ -3,7 +3,7 @@
 use crate::FocusError;
 use unripple_core::require;
 
-/// Most samples of a drive over all channels: 400 MB of them. Doubled, drives of twice the length.
+/// Largest number of samples of a drive over all channels: 400 MB of them. With twice this value, drives may be twice as long.
 pub(crate) const MOST_SAMPLES: usize = 50_000_000;
 
 /// A common period may be this many times the longest one; beyond, the longest stands for it. Doubled, drives

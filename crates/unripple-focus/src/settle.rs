@@ -3,7 +3,7 @@
 use crate::schedule::MOST_SAMPLES;
 use unripple_core::{Pole, Responses};
 
-/// Number of samples until the slowest mode has decayed by so many nepers, or until sampled responses end; `None` for
+/// Number of samples until the slowest mode has decayed by `nepers`, or until sampled responses end; `None` for
 /// modes that never decay so far.
 pub(crate) fn settle(responses: &Responses, nepers: f64) -> Option<usize> {
     match responses {

@@ -42,7 +42,7 @@ pub fn product<T: Number>(left: MatRef<'_, T>, right: MatRef<'_, T>) -> Mat<T> {
     out
 }
 
-/// Threads for a product with so many rows and columns: sums of a single row or column would be split among them.
+/// Threads for a product with `rows` rows and `columns` columns: sums of a single row or column would be split among them.
 fn shared(rows: usize, columns: usize) -> Par {
     if rows.min(columns) > 1 { Par::rayon(0) } else { Par::Seq }
 }

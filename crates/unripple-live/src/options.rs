@@ -8,7 +8,8 @@ use unripple_player::{Limit, Options as PlayerOptions, Running, WaveOptions};
 /// Longest ping that may be sent between effects, in s. A longer one would seldom fit between two touches.
 const LONGEST_PING: f64 = 0.15;
 
-/// Longest window of live play, in s: nobody waits that long for the answer to a touch. Doubled, filters of twice the memory.
+/// Longest window of live play, in s: nobody waits that long for the answer to a touch. Windows twice as long need filters of twice the
+/// memory.
 pub const LONGEST_WINDOW: f64 = 10.0;
 
 /// Options of live play: method, level, waveforms, limits, prediction.

@@ -17,7 +17,7 @@ pub const COMMANDS: [&str; commands::COMMANDS.len() + 1] = {
     names
 };
 
-/// The ask of a command where nothing is asked for, with all its fields, as JSON.
+/// The default request of a command: all its fields with their default values, as JSON.
 ///
 /// # Errors
 /// [`unknown`].
@@ -29,7 +29,7 @@ pub fn default_ask(command: &str) -> Result<Value, TaskError> {
     }
 }
 
-/// Does a command; fields that its ask leaves out have their defaults.
+/// Performs a command; fields that its request leaves out have their defaults.
 ///
 /// ```
 /// use unripple_paper::commands;
@@ -43,8 +43,8 @@ pub fn default_ask(command: &str) -> Result<Value, TaskError> {
 /// ```
 ///
 /// # Errors
-/// [`unknown`]; [`TaskError::Input`] of an ask with a field that the command does not know, or a value that the field cannot have; those of
-/// the command.
+/// [`unknown`]; [`TaskError::Input`] of a request with a field that the command does not know, or a value that the field cannot have;
+/// those of the command.
 pub fn run(command: &str, ask: Value, progress: &mut dyn Progress) -> Result<Done, TaskError> {
     match command {
         reproduce::Ask::COMMAND => perform(ask, reproduce::run, progress),

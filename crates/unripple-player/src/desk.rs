@@ -38,7 +38,7 @@ pub(crate) struct Sent {
     pub(crate) id: u64,
     /// What is asked for.
     pub(crate) command: Command,
-    /// What keeps it going, if it goes on.
+    /// The hold that keeps it playing, if it does not end by itself.
     pub(crate) held: Option<Arc<Held>>,
 }
 

@@ -252,7 +252,7 @@ impl Ledger {
         }
     }
 
-    /// The parts of an event of so many samples, block by block.
+    /// The parts of an event of `samples` samples, block by block.
     #[inline(always)]
     fn pieces(&self, samples: usize, start: u64) -> impl Iterator<Item = Piece> + use<> {
         let (block, span) = (self.block, self.span);

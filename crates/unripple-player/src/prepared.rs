@@ -83,8 +83,9 @@ impl Prepared {
     }
 
     /// Largest sum of the positive parts, or of the negative parts, of overlapping copies of an output's channel that
-    /// start every `period` samples, in the output's unit. A comb whose gain is at most the output's peak limit over
-    /// this is not scaled down by that limit, as long as nothing else sounds. Starts are rounded to a sample, so this
+    /// start every `period` samples, in the output's unit. A comb (a drive that is started again every `period` samples) with a gain of
+    /// at most the output's peak limit divided by this sum is not scaled down by that limit, as long as nothing else sounds. Starts are
+    /// rounded to a sample, so this
     /// is the larger of the values for floor(`period`) and floor(`period`) + 1 samples; for a `period` below 1 or not a
     /// number it is the drive's own peak.
     pub fn comb_peak(&self, output: usize, period: f64) -> f32 {

@@ -14,7 +14,7 @@ pub(crate) enum Garbage {
     Filters(Arc<PreparedFilters>),
     /// A waveform that is over.
     Samples(Arc<[f32]>),
-    /// What held something that is over.
+    /// The hold of a drive or waveform that has ended.
     Held(Arc<Held>),
 }
 

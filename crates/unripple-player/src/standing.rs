@@ -25,7 +25,7 @@ impl Standing {
         self.withdrawn.load(Acquire)
     }
 
-    /// Asks the player to end with a fade of so many samples.
+    /// Asks the player to end with a fade of `fade` samples.
     pub(crate) fn end(&self, fade: u32) {
         self.fade.store(fade.max(1), Release);
     }

@@ -28,7 +28,7 @@ pub(crate) const MINOR_TICK: f64 = 1.8;
 /// Space between a mark and its text, in points. Less, and digits touch the axis.
 pub(crate) const GAP: f64 = 2.5;
 
-/// Points in so many millimetres.
+/// The points (1/72 inch) in `mm` millimetres.
 pub(crate) fn points(mm: f64) -> f64 {
     mm / MM_PER_POINT
 }

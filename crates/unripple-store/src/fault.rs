@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::fmt;
 use std::ops::Range;
 
-/// Most faults reported of one file; the rest are counted.
+/// Largest number of faults reported of one file; the rest are counted.
 pub(crate) const MOST_FAULTS: usize = 100;
 
 /// One thing wrong with a TOML file: where, what was found, what was expected, and the nearest thing that is legal.

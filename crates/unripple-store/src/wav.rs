@@ -108,7 +108,7 @@ pub(crate) fn spec(path: &Path, drive: &Drive) -> Result<WavSpec, StoreError> {
     })
 }
 
-/// Most samples per second of so many channels: the header counts the bytes of a second, four for a sample, in 32 bits.
+/// Highest sample rate of `channels` channels, in Hz: the header counts the bytes of a second, four for a sample, in 32 bits.
 pub(crate) fn most_rate(channels: usize) -> f64 {
     (u32::MAX as usize / 4 / channels.max(1)) as f64
 }

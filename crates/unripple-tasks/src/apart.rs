@@ -15,8 +15,8 @@ const LOOK: Duration = Duration::from_millis(20);
 /// call is over.
 static TASKS: LazyLock<Lane> = LazyLock::new(|| Lane::new(0));
 
-/// A lane of tasks, each on its own thread. A task that is given up runs on until its longest call is over; the next begins while at
-/// most so many of them still run.
+/// A group of tasks, each on its own thread. A task that is cancelled runs on until its longest call is over; the next one begins as soon
+/// as no more than `beside` cancelled ones still run.
 #[derive(Clone, Debug)]
 pub struct Lane {
     /// How many tasks that were given up still run.

@@ -1,4 +1,4 @@
-//! Options of a device as an ask gives them, and the options of each kind of device made from them.
+//! Options of a device as a request gives them, and the options of each kind of device made from them.
 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

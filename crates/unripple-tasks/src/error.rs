@@ -11,7 +11,7 @@ use unripple_touch::TouchError;
 /// Error that ended a task.
 #[derive(Debug, thiserror::Error)]
 pub enum TaskError {
-    /// A field of the ask, or a combination of fields, has a value that is not accepted.
+    /// A field of the request, or a combination of fields, has a value that is not accepted.
     #[error("{field}: expected {expected}, found {found}")]
     Ask {
         /// The field, or fields separated by commas.
@@ -36,7 +36,7 @@ pub enum TaskError {
 }
 
 impl TaskError {
-    /// Error of a field of an ask, from what was expected and what was found.
+    /// Error of a field of a request, from what was expected and what was found.
     pub fn ask(field: &'static str, expected: impl Into<String>, found: impl std::fmt::Display) -> Self {
         Self::Ask { field, expected: expected.into(), found: found.to_string() }
     }

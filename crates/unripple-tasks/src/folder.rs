@@ -6,8 +6,8 @@ use serde::Serialize;
 use std::path::Path;
 use unripple_store::OutputDir;
 
-/// An output folder under construction beside its place, if there is one, and the record of what is about to fill it. It takes
-/// the place of nothing that the ask reads.
+/// An output folder under construction beside its place, if there is one, and the record of what is about to fill it. It replaces no
+/// file or folder that the request reads.
 ///
 /// # Errors
 /// Those of [`OutputDir::create_beside`] and [`Record::of`].

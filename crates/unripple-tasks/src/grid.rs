@@ -4,7 +4,7 @@ use crate::numbers::above_zero;
 use crate::{Place, TaskError, point};
 use unripple::core::{Outline, Point};
 
-/// Most points of a grid: a finer pitch is taken for a mistake of unit, and its responses would take terabytes.
+/// Largest number of points of a grid: a finer pitch is taken for a mistake of unit, and its responses would take terabytes.
 const MOST: f64 = 1e6;
 
 /// The multiples of `pitch` (m) along both axes that lie inside an outline, at least a quarter of the pitch from its rim:

@@ -1,6 +1,6 @@
 //! The tasks of Unripple, each with plain options and a report.
 //!
-//! There is a module for each task. In each, `Ask` is a plain struct of options in SI units, with defaults and serde;
+//! There is a module for each task. In each, `Ask` is the request: a plain struct of options in SI units, with defaults and serde;
 //! `run` does the work, reports to a [`Progress`] how far it is, and asks it whether the task has been cancelled;
 //! `Report` holds the results, with serde and as text. The command line, the page and other languages call the same
 //! functions, and `--json` prints the report. No task prints or reads arguments, and none computes waves: they join the

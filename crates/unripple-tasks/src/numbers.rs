@@ -1,4 +1,4 @@
-//! Checks of numbers in asks, made before any work is done.
+//! Checks of numbers in requests, made before any work is done.
 
 use crate::TaskError;
 

@@ -1,4 +1,4 @@
-//! Places in asks.
+//! Places on the surface in requests.
 
 use unripple::core::{Outline, Point};
 

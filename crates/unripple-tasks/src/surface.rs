@@ -1,4 +1,4 @@
-//! A surface as an ask gives it.
+//! A surface as a request names it: by its name, its file or its text.
 
 use crate::TaskError;
 use serde::{Deserialize, Serialize};

@@ -37,7 +37,8 @@ pub enum Done {
 }
 
 impl Errand {
-    /// Builds the instrument of a specification in a lane, until the build is given up.
+    /// Builds the instrument (device, engine and modes of a surface) that a specification describes, on a thread of `lane`; stops when
+    /// `stop` says that it is no longer wanted.
     pub fn build(spec: Box<Spec>, stop: &Stop, lane: &Lane) -> Done {
         let built = lane.run(move |progress| Ok(Instrument::build(*spec, progress)), &mut stop.watch());
         let built = built.unwrap_or_else(|error| match error {
@@ -152,8 +153,8 @@ impl Session {
         Ok(())
     }
 
-    /// Lets `seconds` of the pages' time pass. The surface is stepped as long as `more` returns true; `viewers` is the number of open
-    /// pages.
+    /// Advances by `seconds` of real time, as people at the pages experience it; simulated time may run slower, stand still or run
+    /// backwards. The surface is stepped as long as `more` returns true; `viewers` is the number of open pages.
     pub fn advance(&mut self, seconds: f64, viewers: usize, more: &mut dyn FnMut() -> bool) {
         self.renew();
         self.simulation.advance(seconds, viewers, more, &mut self.out);

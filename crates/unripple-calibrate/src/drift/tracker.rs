@@ -283,7 +283,7 @@ impl Tracker {
 
     fn check(&self, drive: &[Vec<f64>], heard: &[Vec<f64>]) -> Result<usize, CalibrateError> {
         let channels = self.sheet.input.ncols();
-        for (what, found) in [("channels of the drive", drive.len()), ("channels heard", heard.len())] {
+        for (what, found) in [("channels of the drive", drive.len()), ("recorded channels", heard.len())] {
             if found != channels {
                 return Err(CalibrateError::Count { what, expected: channels.to_string(), found });
             }
@@ -291,7 +291,7 @@ impl Tracker {
         let samples = heard.iter().map(Vec::len).min().unwrap_or(0);
         if samples == 0 {
             return Err(CalibrateError::Count {
-                what: "samples heard",
+                what: "recorded samples",
                 expected: "at least 1".into(),
                 found: 0,
             });

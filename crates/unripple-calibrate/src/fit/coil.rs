@@ -58,8 +58,8 @@ impl Coil {
         [-omega * added.im, added.re]
     }
 
-    /// Filters a signal by circuit and housing: `signal` is that with the resistance alone, the result that of the whole. `rate` is in
-    /// Hz.
+    /// Filters a signal by the inductance of the circuit and by the housing: `signal` is the signal of a coil without inductance and
+    /// without housing, the result is the signal with both. `rate` is in Hz.
     pub fn behind(&self, signal: &[f64], rate: f64) -> Vec<f64> {
         self.sensor.hear(signal, rate).into_iter().map(|x| x / self.plain).collect()
     }

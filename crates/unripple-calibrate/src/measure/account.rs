@@ -98,7 +98,8 @@ impl Account {
             said.push(format!("the recording's clock runs {ppm:.1} millionths {side}: resampled"));
         }
         for lost in &self.lost {
-            let (count, what) = (lost.samples.abs(), if lost.samples > 0 { "lost" } else { "heard twice" });
+            let (count, what) =
+                (lost.samples.abs(), if lost.samples > 0 { "lost" } else { "recorded twice" });
             let ([from, to], [before, after]) = (lost.between_s, lost.sweeps);
             said.push(format!(
                 "{count} samples were {what} between {from:.3} and {to:.3} s, between sweeps {before} and {after}: what comes \
@@ -120,8 +121,8 @@ impl Account {
         }
         if let Some(scatter) = self.scatter {
             said.push(format!(
-                "sweeps came {scatter:.2} samples early or late that no clock explains (latency that jitters, or a few samples \
-                 lost): not corrected"
+                "the arrival times of the sweeps deviate by {scatter:.2} samples rms, which no clock error explains (latency that \
+                 jitters, or a few samples lost): not corrected"
             ));
         }
         said

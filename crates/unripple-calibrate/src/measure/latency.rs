@@ -219,7 +219,7 @@ struct Cells {
 }
 
 impl Cells {
-    /// Cells of a band for about so many tones.
+    /// Cells of a band in which there are about `tones` tones in all.
     fn new(tones: usize, band: Band) -> Self {
         let (low, count) = (band.low[1], (tones / IN_CELL).max(1));
         Self { low, width: (band.high[0] - low) / count as f64, count }

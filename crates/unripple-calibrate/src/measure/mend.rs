@@ -18,7 +18,7 @@ pub(super) struct Mend {
 const LEAST: f64 = 0.02;
 
 impl Mend {
-    /// Whether a recording of so many samples needs a correction.
+    /// Whether a recording of `samples` samples needs a correction.
     pub fn is_needed(&self, samples: usize) -> bool {
         self.lost.is_some() || self.late.abs() >= LEAST || self.resampled(samples)
     }

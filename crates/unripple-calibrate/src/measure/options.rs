@@ -191,7 +191,7 @@ impl MeasureOptions {
         }
         if let Some([unlike, all]) = channel.account.unlike {
             return Some(format!(
-                "sensors heard {unlike} of {all} sweeps otherwise than in the first recording, and noise does not explain it \
+                "at the sensors {unlike} of {all} sweeps differ from the first recording, and noise does not explain it \
                  (samples lost, clocks far apart, a latency that jitters, or a surface that changed or is touched)"
             ));
         }
@@ -215,7 +215,7 @@ impl MeasureOptions {
                     format!("{each} {number}: signal to noise {snr_db:.1} dB, expected {least:.0} or more")
                 }
                 false => format!(
-                    "{each} {number}: nothing is heard of it (signal to noise below 0 dB, expected {least:.0} or more); is it \
+                    "{each} {number}: no response was recorded (signal to noise below 0 dB, expected {least:.0} or more); is it \
                      connected?"
                 ),
             })

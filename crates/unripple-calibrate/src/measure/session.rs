@@ -19,7 +19,7 @@ pub(super) const LEAD: usize = 240;
 /// recognised.
 const CLEAR_DB: f64 = 15.0;
 
-/// Most samples of the drive of all actuators and of all recordings of a place, 4 GiB of them. Doubled, twice the memory.
+/// Largest number of samples of the drive of all actuators and of all recordings of a place: 4 GiB. Twice as many take twice the memory.
 const MOST_VALUES: usize = 1 << 29;
 
 /// Largest number of sensors from which clock, gaps and tension are found: more give the same and take longer.

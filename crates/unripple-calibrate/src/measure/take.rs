@@ -182,7 +182,7 @@ impl Judge<'_> {
             let [from, to] =
                 [lates().fold(f64::INFINITY, f64::min), lates().fold(f64::NEG_INFINITY, f64::max)];
             return Err(CalibrateError::Recording {
-                what: "times at which the sweeps were heard".into(),
+                what: "arrival times of the sweeps".into(),
                 expected: "those of one clock, with samples lost at one place at most".into(),
                 found: format!(
                     "sweeps between {from:+.1} and {to:+.1} samples late (samples lost at several places, a clock that is not steady, or a \

@@ -67,7 +67,7 @@ pub fn tapped(
         if sensors.len() != model.len() {
             let expected = format!("{}, one per actuator", model.len());
             return Err(CalibrateError::Count {
-                what: "sensors that heard a tap",
+                what: "sensors that recorded a tap",
                 expected,
                 found: sensors.len(),
             });
@@ -75,7 +75,7 @@ pub fn tapped(
         let Some(begin) = begin(sensors, rate, options) else {
             return Err(CalibrateError::Recording {
                 what: format!("tap {}", tap + 1),
-                expected: "a knock that all sensors hear".into(),
+                expected: "a tap that the sensors record".into(),
                 found: "nothing above the noise".into(),
             });
         };

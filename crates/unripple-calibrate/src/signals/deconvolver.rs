@@ -76,7 +76,7 @@ impl Deconvolver {
     pub fn new(stimulus: &Stimulus, heard: usize, inversion: &Inversion) -> Result<Self, DspError> {
         let length = stimulus.samples.len();
         if stimulus.periodic || heard < length {
-            same("samples heard of a stimulus", length, heard)?;
+            same("recorded samples of a stimulus", length, heard)?;
         }
         let plan = if stimulus.periodic { Transform::exact(heard) } else { Transform::smooth(heard) };
         let mut work = plan.work();
@@ -149,7 +149,7 @@ impl Deconvolver {
         response: &mut [f64],
         workspace: &mut Workspace,
     ) -> Result<(), DspError> {
-        same("samples heard in a channel", self.heard, heard.len())?;
+        same("recorded samples of a channel", self.heard, heard.len())?;
         same("lines of a workspace", self.factors.len(), workspace.0.band.len())?;
         same("samples of a workspace", self.size(), workspace.0.size())?;
         if response.len() > self.size() {
@@ -175,7 +175,7 @@ impl Deconvolver {
         samples: usize,
     ) -> Result<(), DspError> {
         let channels = heard.len() / self.heard.max(1);
-        same("samples heard in all channels", channels * self.heard, heard.len())?;
+        same("recorded samples of all channels", channels * self.heard, heard.len())?;
         same("samples of all responses", channels * samples, responses.len())?;
         if samples == 0 || samples > self.size() {
             same("samples of a response", self.size(), samples)?;

@@ -130,5 +130,5 @@ impl Sweep {
 /// gigabytes.
 const MOST_SECONDS: f64 = 600.0;
 
-/// Most samples of a sweep, and of a silence, half a GiB of them. Doubled, longer ones above 112 kHz.
+/// Largest number of samples of a sweep and of a silence: half a GiB. Twice as many allow longer ones above 112 kHz.
 const MOST_SAMPLES: f64 = (1 << 26) as f64;

@@ -40,7 +40,7 @@ impl std::fmt::Debug for Transform {
 }
 
 impl Transform {
-    /// A transform of exactly so many samples, at least one.
+    /// A transform of exactly `size` samples, or of one if that is 0.
     pub fn exact(size: usize) -> Self {
         let size = size.max(1);
         PLANS.with_borrow_mut(|plans| {
@@ -58,7 +58,7 @@ impl Transform {
         })
     }
 
-    /// A transform of at least so many samples, of a size for which it is quick.
+    /// A transform of at least `least` samples, of a size for which it is quick.
     pub fn smooth(least: usize) -> Self {
         Self::exact(smooth_size(least))
     }

@@ -56,9 +56,10 @@ impl Levels {
         self.common.filter(|common| !same(gain, *common)).map(|common| common / gain)
     }
 
-    /// The factor of [`Levels::off`] where it is certain. The gain at the stated place has to equal that at the best place nearby,
-    /// since a probe a little beside its place has another gain near a node; and it has to differ by more than the share that the model
-    /// leaves unexplained accounts for, averaged over `actuators`.
+    /// The factor of [`Levels::off`], if it is certain; otherwise `None`. Two conditions hold then. The gain at the stated place is equal
+    /// to that at the best place nearby, since a probe a little beside its place has another gain near a node. And the factor is negative,
+    /// or its logarithm exceeds three standard errors, which follow from the share that the model leaves unexplained and the number of
+    /// `actuators`.
     pub fn correction(&self, judged: &Judged, actuators: usize) -> Option<f64> {
         let [own, nearby] = [judged.own, judged.nearby.found];
         let left = own.unexplained().max(nearby.unexplained());

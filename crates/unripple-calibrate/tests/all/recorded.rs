@@ -291,7 +291,7 @@ fn each_cause_has_its_own_name() {
     let clipped = said(Faults { clip: Some(0.4), ..Faults::default() });
     assert!(clipped.contains("distortion") && clipped.contains("clipped"), "{clipped}");
     let dead = said(Faults { dead: Some(2), ..Faults::default() });
-    assert!(dead.contains("actuator 3: nothing is heard of it"), "{dead}");
+    assert!(dead.contains("actuator 3: no response was recorded"), "{dead}");
     let dead = said(Faults { dead: Some(2), noise_db: Some(30.0), ..Faults::default() });
     assert!(dead.contains("actuator 3"), "{dead}");
 }

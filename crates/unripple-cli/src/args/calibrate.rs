@@ -100,7 +100,7 @@ pub struct CalibrateOptions {
     /// Level of the sweeps, as a fraction of the surface's drive limit.
     #[arg(long, value_name = "SHARE", default_value_t = 1.0, allow_negative_numbers = true, help_heading = heading::SWEEPS)]
     pub level: f64,
-    /// Channel of an actuator, sensor, probe or reference whose channel has another name. Repeatable.
+    /// Use CHANNEL for the actuator, sensor, probe or reference NAME, where channel and NAME are not the same. Repeatable.
     #[arg(long, value_name = "NAME=CHANNEL", help_heading = heading::WIRING)]
     pub wire: Vec<String>,
     /// Value of an input at full scale: in m/s for the probe, in the sensor's unit for an actuator; negative if the input is

@@ -298,7 +298,8 @@ pub struct CompareOptions {
     pub vary: Option<String>,
     #[command(flatten)]
     pub targets: TargetOptions,
-    /// Method to compare with time reversal; by default all on one surface, and `concentrate` on several. Repeatable.
+    /// Method to compare with time reversal; by default every method if there is one surface, only `concentrate` if there are several.
+    /// Repeatable.
     #[arg(long, value_enum, help_heading = heading::METHOD)]
     pub method: Vec<MethodName>,
     /// Window T in ms; by default the one that `design` recommends for each surface.

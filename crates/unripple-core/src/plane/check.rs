@@ -7,7 +7,7 @@ use crate::{Edge, Outline, Side};
 use std::ops::Range;
 
 /// Largest gap between the end of a side and the start of the next, as a share of the extent: above the
-/// rounding of coordinates that were computed. Doubled, gaps twice as wide would count as closed.
+/// rounding of coordinates that were computed. With twice this value, gaps twice as wide would count as closed.
 const OPEN: f64 = 1e-9;
 /// Least area of a sheet, as a share of the extent squared: an outline with less encloses no area but for rounding.
 const AREA: f64 = 1e-9;

@@ -12,11 +12,11 @@ use std::f64::consts::PI;
 /// Pieces of one rim that are nearer than this share of the extent count as touching: a mesh of anything closer has more
 /// triangles than any memory holds.
 const TOUCH: f64 = 1e-7;
-/// Least distance between different rims, in metres. Doubled, strips of sheet up to 2 µm wide would be
+/// Least distance between different rims, in metres. With twice this value, strips of sheet up to 2 µm wide would be
 /// refused as well.
 const CLEAR: f64 = 1e-6;
 /// Least angle between sides that meet, in radians (0.6°): sharper corners would need needles for triangles.
-/// Doubled, corners up to 1.1° would be refused.
+/// With twice this value, corners up to 1.1° would be refused.
 const SHARPEST: f64 = 0.01;
 /// Halvings after which two pieces that cannot be told apart are taken to meet: parameters then differ in the
 /// last bits only.
@@ -24,12 +24,12 @@ const DEEPEST: u32 = 60;
 /// Pieces are halved until their sagittas are below this share of the least distance allowed, so that the comparison with it
 /// errs by a thousandth. Halved, curves that nearly touch take about one more halving.
 const BLUR: f64 = 1e-3;
-/// Most pairs of pieces that are compared: with the two limits below, about a second. Outlines that need more have
+/// Largest number of pairs of pieces that are compared: with the two limits below, about a second. Outlines that need more have
 /// sides that lie along each other. Doubled, such outlines would be refused after twice the time.
 const MOST_PAIRS: u64 = 5_000_000;
-/// Most times that pieces are halved, for the same bound on time.
+/// Largest number of times that pieces are halved, for the same bound on time.
 const MOST_HALVINGS: u64 = 4_000_000;
-/// Most pairs of rims that meet before the search ends, for the same bound on time.
+/// Largest number of pairs of rims that meet before the search ends, for the same bound on time.
 const MOST_MEETINGS: usize = 10_000;
 
 /// The result of [`within`]: two sides of a closed curve that cross or touch, or a search that was given up.

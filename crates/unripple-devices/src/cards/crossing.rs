@@ -60,7 +60,7 @@ pub(super) struct Shore {
     pub(super) heard: Consumer<u32>,
 }
 
-/// The ends of player, recorder and program, with rings for so many frames.
+/// The ends of player, recorder and program, with rings for `frames` frames.
 pub(super) fn crossing(
     outputs: usize,
     inputs: usize,
@@ -82,7 +82,7 @@ impl Player {
         self.at = at;
     }
 
-    /// Plays so many frames: `put` takes a frame's number, an output and its sample.
+    /// Plays `frames` frames: `put` takes a frame's number, an output and its sample.
     pub(super) fn play(&mut self, frames: usize, mut put: impl FnMut(usize, usize, f32)) {
         self.at = self.events.counts.next(Side::Playback, self.at, frames);
         let outputs = self.outputs.max(1);
@@ -108,7 +108,7 @@ impl Recorder {
         self.at = at;
     }
 
-    /// Records so many frames: `get` gives the sample of a frame and an input. Frames before the first played one do
+    /// Records `frames` frames: `get` gives the sample of a frame and an input. Frames before the first played one do
     /// not count.
     pub(super) fn hear(&mut self, frames: usize, get: impl Fn(usize, usize) -> f32) {
         if self.events.counts.chunks(Side::Playback) == 0 {

@@ -59,7 +59,7 @@ pub(super) struct Shore {
 }
 
 impl Crossing {
-    /// Both ends of two rings of so many frames.
+    /// Both ends of two rings of `frames` frames.
     pub(super) fn new(outputs: usize, inputs: usize, frames: usize, events: Arc<Events>) -> (Self, Shore) {
         let (push, take) = RingBuffer::new(frames * (outputs + 1));
         let (give, pop) = RingBuffer::new(frames * (inputs + 1));
@@ -105,7 +105,7 @@ impl Crossing {
         self.drive.slots() >= frames * (self.outputs + 1) && self.heard.slots() >= frames * (self.inputs + 1)
     }
 
-    /// Whether a cycle of so many frames can pass; while the server freewheels, drive is waited for.
+    /// Whether a cycle of `frames` frames can pass; while the server freewheels, drive is waited for.
     fn wait(&mut self, frames: usize) -> bool {
         if self.ready(frames) {
             self.idle = false;

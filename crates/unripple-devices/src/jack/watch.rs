@@ -31,7 +31,7 @@ pub(super) enum Pace {
 }
 
 impl Watch {
-    /// A watch from now on, after so many cycles.
+    /// A watch from now on, when `cycles` cycles have passed.
     pub(super) fn new(cycles: u64) -> Self {
         Self { cycles, at: Instant::now(), frame: 0, moved: 0 }
     }

@@ -7,7 +7,7 @@ use crate::{EffectsError, Region, limits};
 use unripple_core::Point;
 
 /// Distance that a finger has to move away from a crossing before another crossing counts, in m, so that a finger that
-/// trembles on the line sets off one pulse only. Doubled, it has to move 2 mm away to feel the line again.
+/// trembles on the line sets off one pulse only. With twice this distance, it has to move 2 mm away to feel the line again.
 const AWAY: f64 = 1e-3;
 
 /// An edge: a pulse where the finger crosses a line, or the border of the effect's region.

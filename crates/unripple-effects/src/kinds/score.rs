@@ -7,7 +7,7 @@ use std::sync::Arc;
 use unripple_core::Point;
 
 /// Duration of the fade-out of a score's waveforms when the score is stopped, in s: short, but without a click.
-/// Doubled, they last as much longer.
+/// With twice this value, they last another 0.01 s.
 const FADE: f64 = 0.01;
 /// How long a score is kept after its last event, in s, so that events cued that far ahead can still be stopped. Doubled,
 /// scores that are over are kept a second longer.

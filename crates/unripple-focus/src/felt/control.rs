@@ -8,7 +8,7 @@ use unripple_linalg::{Mat, Scale, product};
 /// same.
 const AT_ONCE: usize = 1024;
 
-/// Every so many points of the lattice, along each side, one belongs to the coarse lattice. Doubled, the
+/// Along each side, every third point of the lattice belongs to the coarse lattice. With twice this spacing, the
 /// lattice near targets and actuators has four times the points.
 const COARSE: usize = 3;
 

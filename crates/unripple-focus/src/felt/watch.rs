@@ -50,8 +50,8 @@ impl Watch {
         each.map(|i| i * step).collect()
     }
 
-    /// What each mode does per spline and per whitened coefficient, at the times around sample `focal`;
-    /// `factor` is the lower triangular one that whitens coefficients, `top` in Hz.
+    /// Computes the weighted displacement of each mode per spline and per whitened coefficient, at the times around sample `focal`;
+    /// `factor` is the lower triangular factor that whitens coefficients, `top` in Hz.
     pub fn new(actuation: &Actuation<'_>, factor: MatRef<'_, f64>, focal: usize, top: f64) -> Self {
         let modes = actuation.modes.len();
         let times = Self::times(actuation.lines.rate, top);

@@ -32,7 +32,7 @@ pub(super) fn driven_at(modal: &ModalResponses, port: Port) -> Responses {
     Responses::Modal(ModalResponses { ports: vec![port], input, ..modal.clone() })
 }
 
-/// The closed form's contrast on the bed's film with so many actuators; `None` where decay varies with frequency.
+/// The closed form's contrast on the bed's film with `actuators` actuators; `None` where decay varies with frequency.
 pub(super) fn closed_contrast(bed: &Bed, modal: &ModalResponses, actuators: usize) -> Option<f64> {
     let Decay::Time(tau) = bed.surface.sheet.decay else { return None };
     let Conditions { band: [low, high], .. } = modal.conditions;

@@ -1,6 +1,6 @@
 //! Numbers rounded to significant digits.
 
-/// A number rounded to so many significant digits; 0 and numbers that are not finite stay as they are.
+/// A number rounded to `digits` significant digits; 0 and numbers that are not finite stay as they are.
 pub(super) fn rounded(value: f64, digits: i32) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;

@@ -8,7 +8,7 @@ use super::{
 use super::{deformation::deformation, touch::own_touches, waves::waves};
 use std::f64::consts::TAU;
 
-/// Rows of the dispersion table, evenly spaced in frequency. Doubled, it has twice the rows.
+/// Rows of the dispersion table, evenly spaced in frequency. With twice this value, the table is twice as long.
 const WAVES: usize = 12;
 
 /// The design figures of a surface, which `unripple design` prints, in SI units.

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use unripple_core::{Actuator, ActuatorKind, Patch, Sheet, Surface};
 
 /// Thickness over the shortest wavelength from which on a note gives the error of thin-plate theory: there its frequencies are 2 % too
-/// high. Doubled, 7 % would go without a word.
+/// high. With twice this value, 7 % would not be noted.
 const THICK: f64 = 0.05;
 
 /// Thickness over the shortest wavelength from which on thin-plate theory should not be relied on: its frequencies are 7 % too high there.

@@ -5,7 +5,7 @@ use super::deformation::TENSION_CHANGE;
 use unripple_core::Surface;
 
 /// Share of each bound of linear theory that is used, as a margin: half the thickness is well within it.
-/// Doubled, fields may reach the bounds themselves.
+/// With twice this value, fields may reach the bounds themselves.
 const SHARE: f64 = 0.5;
 
 /// The bound of linear theory that a field reaches first.

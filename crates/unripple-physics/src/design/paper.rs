@@ -8,15 +8,15 @@ use unripple_core::{
 /// Relative difference up to which two dimensions or constants are the same: far above rounding, far below any change made on purpose.
 const SAME: f64 = 1e-6;
 
-/// Wavelength for which the paper's table 1 and window are computed, in metres. Doubled, celerities of the
+/// Wavelength for which the paper's table 1 and window are computed, in metres. With twice this wavelength, celerities of the
 /// table would differ from those printed.
 pub(super) const WAVELENGTH: f64 = 15e-3;
 
-/// Width of the contact in the paper's table, in metres. Doubled, strips and powers would be twice those
+/// Width of the contact in the paper's table, in metres. With twice this width, strips and powers would be twice those
 /// printed.
 pub(super) const CONTACT: f64 = 10e-3;
 
-/// Displacement of the finger in the paper's table, in metres. Doubled, powers would be four times those
+/// Displacement of the finger in the paper's table, in metres. With twice this displacement, powers would be four times those
 /// printed.
 pub(super) const DISPLACEMENT: f64 = 10e-6;
 

@@ -43,7 +43,7 @@ pub struct Statistics {
     area: f64,
 }
 
-/// What is known of a mode.
+/// Statistics of a mode that the mean contrast depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Mode {
     /// Mean square gain of the actuators for modes about this one.

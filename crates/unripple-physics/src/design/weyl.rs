@@ -27,7 +27,7 @@ pub(super) struct Weyl {
     sheet: Reflecting,
 }
 
-/// What a sheet reflects waves with.
+/// Properties of a sheet on which the reflection of waves at its edges depends: tension (N/m), bending stiffness (N·m), Poisson ratio.
 #[derive(Clone, Copy, Debug)]
 struct Reflecting {
     tension: f64,

@@ -6,7 +6,7 @@ use super::lanes::{
 use pulp::{Simd, as_arrays, as_arrays_mut};
 use unripple_core::Pole;
 
-/// Number of terms of the series for slow modes: the last is below 1e-20 of the first. Doubled, sums stay the same.
+/// Number of terms of the series for slow modes: the last is below 1e-20 of the first. Twice as many terms change no sum.
 const TERMS: usize = 30;
 
 /// Number of groups of modes processed together: as many as the first-level cache holds with their tiles.

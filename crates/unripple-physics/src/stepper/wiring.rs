@@ -3,7 +3,7 @@
 //! A housing is a coordinate behind the modes, like a mode of frequency 0, with the weight -1/√M at the port of its spring, damper and
 //! coil. So that port has the velocity of the contact relative to the housing, and its force acts on both.
 //!
-//! The sensor of an exciter hears what the motion of the sheet causes, but its drive moves the housing on a sheet that is held still as
+//! The sensor of an exciter records what the motion of the sheet causes, but its drive moves the housing on a sheet that is held still as
 //! well. That part is simulated by a twin, the same housing with the same coil, drive and loads, on nothing, and subtracted. Both are
 //! stepped alike, so that reciprocity holds to rounding.
 

@@ -359,7 +359,10 @@ fn of_several_contrasts_one_is_to_be_trusted() {
     assert!(said.contains(&format!("the {:.1} by the plain form", d.contrast_plain)), "{said}");
     let d = design_by_law(&papers_surface(), "asked for").unwrap();
     let said = told(&d);
-    assert!(said.starts_with(&format!("trust the {:.1} by statistics of the band", d.contrast_predicted)), "{said}");
+    assert!(
+        said.starts_with(&format!("trust the {:.1} by statistics of the band", d.contrast_predicted)),
+        "{said}"
+    );
     assert!(said.contains(&format!("the {:.1} by the plain form", d.contrast_plain)), "{said}");
 }
 

@@ -38,7 +38,7 @@ impl Hasher for Mix {
 /// A map with that hash.
 pub(super) type Quick<K, V> = HashMap<K, V, BuildHasherDefault<Mix>>;
 
-/// What keeps others away: a vertex, or the middle of a rim's edge.
+/// A place that new vertices must keep their distance from: a vertex, or the middle of a rim's edge.
 #[derive(Clone, Copy, Debug)]
 struct Site {
     at: Point,

@@ -63,7 +63,7 @@ pub(crate) struct Decimator {
 }
 
 impl Decimator {
-    /// Silence before the first block, of so many samples at the full rate.
+    /// Silence before the first block, for blocks of `block` samples at the full rate.
     pub(crate) fn new(filter: &LowPass, block: usize) -> Self {
         let taps: Vec<f32> = filter.taps.iter().rev().map(|&tap| tap as f32).collect();
         Self { history: vec![0.0; taps.len() - 1 + block], factor: filter.factor, taps }
@@ -93,7 +93,7 @@ pub(crate) struct Interpolator {
 }
 
 impl Interpolator {
-    /// Silence before the first block, of so many samples at the lower rate.
+    /// Silence before the first block, for blocks of `low_block` samples at the lower rate.
     pub(crate) fn new(filter: &LowPass, low_block: usize) -> Self {
         let factor = filter.factor;
         let length = 2 * filter.half / factor + 1;

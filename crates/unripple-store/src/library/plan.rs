@@ -4,11 +4,11 @@ use crate::StoreError;
 use std::collections::{BTreeMap, HashSet};
 use unripple_core::{Conditions, Outline, Point, Port, Shape, Surface};
 
-/// Most points of a library: their positions alone are then 256 MiB.
+/// Largest number of points of a library: their positions alone are then 256 MiB.
 pub(crate) const MOST_POINTS: usize = 1 << 24;
-/// Most actuators: about as many as a WAV file has channels for.
+/// Largest number of actuators: about as many as a WAV file has channels for.
 const MOST_PORTS: usize = 1 << 16;
-/// Most values of one point: its chunk is read whole. 1 GiB of float32.
+/// Largest number of values of one point: its chunk is read whole. 1 GiB of float32.
 const MOST_VALUES: usize = 1 << 28;
 
 /// Keys of [`LibraryPlan::provenance`] that may differ when measuring into a library is resumed.

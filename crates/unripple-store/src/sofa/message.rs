@@ -19,7 +19,7 @@ pub(super) const MOST_TEXT: usize = 60_000;
 /// Type of the elements of a dataset or attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Text of so many bytes in UTF-8.
+    /// Text in UTF-8, with its number of bytes.
     Text(u32),
     I32,
     F32,

@@ -215,7 +215,7 @@ impl Named {
         }
     }
 
-    /// Whether the names of so many actuators, numbered, are short enough for a file, or a fault.
+    /// Whether the names of `count` actuators, numbered, are short enough for a file, or a fault.
     fn leaves_room(&self, count: usize, faults: &mut Faults) -> bool {
         let longest = self.of(Some(count.saturating_sub(1))).len();
         if longest > LONGEST_LINE {

@@ -22,8 +22,8 @@ pub(super) struct SidesListed {
     pub order: &'static str,
 }
 
-/// Reads the key `edge` of a table; `default` if there is none. Without `sides`, which are at fault then, a list is
-/// only checked.
+/// Reads the key `edge` of a table; `default` if there is none. Where `sides` is `None`, because the sides themselves are faulty, a list
+/// is checked but not used.
 pub(super) fn read(
     section: &Section,
     default: Edge,

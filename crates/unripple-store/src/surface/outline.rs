@@ -10,7 +10,7 @@ use crate::{Curve, StoreError, read_curves};
 use std::ops::Range;
 use unripple_core::{Edge, Edges, Hole, Outline, Point, Shape};
 
-/// Most holes of a surface: a bound on the pairs of rims that are compared.
+/// Largest number of holes of a surface: a bound on the pairs of rims that are compared.
 pub(super) const MOST_HOLES: usize = 256;
 
 /// Keys of the table `[outline]` that give a shape; exactly one of them is there.

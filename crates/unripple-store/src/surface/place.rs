@@ -125,8 +125,8 @@ impl Ground {
         self.within_rim(p) && self.hole_at(p).is_none()
     }
 
-    /// The place `at_mm` of a table as a point in metres, or a fault if it is not on the sheet. Without ground, which
-    /// is at fault then, any place will do.
+    /// The place `at_mm` of a table as a point in metres, or a fault if it is not on the sheet. Where `ground` is `None`, because the
+    /// outline itself is faulty, every place is accepted.
     pub fn read(ground: Option<&Self>, section: &Section, faults: &mut Faults) -> Option<Point> {
         let shape = "[x, y] in mm";
         let entry = section.require("at_mm", shape, faults)?;
@@ -142,7 +142,7 @@ impl Ground {
     }
 
     /// Whether the place with this number, counted from 0, of several that an entry stands for is on the sheet, or a fault.
-    /// Without ground, which is at fault then, any place will do.
+    /// Where `ground` is `None`, because the outline itself is faulty, every place is accepted.
     pub fn accepts(
         ground: Option<&Self>,
         entry: &Entry,

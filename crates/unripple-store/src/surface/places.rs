@@ -6,7 +6,7 @@ use super::reader::{Entry, Faults, Section};
 use std::f64::consts::TAU;
 use unripple_core::Point;
 
-/// Most actuators of a surface: a bound on what a small file may cost. The model's memory grows with their number.
+/// Largest number of actuators of a surface: a bound on what a small file may cost. The model's memory grows with their number.
 pub(super) const MOST_ACTUATORS: usize = 4096;
 
 /// The keys that say where actuators are.
@@ -35,7 +35,8 @@ impl Places {
     }
 }
 
-/// The places of a table, all of them on the sheet. Without ground, which is at fault then, any place will do.
+/// The places of a table, all of them on the sheet. Where `ground` is `None`, because the outline itself is faulty, every place is
+/// accepted.
 pub(super) fn read(section: &Section, ground: Option<&Ground>, faults: &mut Faults) -> Option<Places> {
     let given: Vec<(&str, Entry)> = WAYS.iter().filter_map(|key| Some((*key, section.get(key)?))).collect();
     if let [(first, _), (second, entry), ..] = given.as_slice() {

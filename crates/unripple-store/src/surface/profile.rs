@@ -4,7 +4,7 @@ use super::range::Limits;
 use super::reader::{Entry, Faults};
 use unripple_core::Profile;
 
-/// Most nodes of a profile: as many as 256 rows of 256.
+/// Largest number of nodes of a profile: as many as 256 rows of 256.
 const MOST_NODES: usize = 1 << 16;
 
 /// A quantity over the surface: rows of numbers, the lowest first.

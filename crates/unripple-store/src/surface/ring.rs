@@ -5,7 +5,7 @@ use crate::decimal;
 use unripple_core::plane::{self, Met};
 use unripple_core::{Edge, Edges, Point, Shape, Side};
 
-/// Most sides of a closed curve: each is compared with those near it for crossings.
+/// Largest number of sides of a closed curve: each is compared with those near it for crossings.
 pub(super) const MOST_SIDES: usize = 4096;
 /// How far from the origin the corner of the bounding box may lie, in metres.
 pub(super) const CORNER: f64 = 1e-9;
@@ -43,7 +43,7 @@ impl Ring {
         Bounds::of_sides(&self.sides)
     }
 
-    /// Number of the file's sides.
+    /// Number of sides that the file lists for this curve.
     pub fn sides_of_file(&self) -> usize {
         self.counts.len()
     }

@@ -50,7 +50,7 @@ pub struct Ask {
     pub response_s: Option<f64>,
     /// Level of the sweeps, as a share of the surface's drive limit.
     pub level: f64,
-    /// Channels of actuators, sensors, probe or reference whose channel has another name: pairs of that name and its channel.
+    /// Channels of actuators, sensors, probe or reference that are not called like them: pairs of the name and of its channel.
     pub wires: Vec<(String, String)>,
     /// Scales of the inputs. Without them absolute levels are unknown.
     pub input_scales: InputScales,

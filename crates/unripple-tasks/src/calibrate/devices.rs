@@ -27,13 +27,13 @@ fn failed(error: DevicesError) -> TaskError {
     }
 }
 
-/// Opens the device of an ask; `hands` move the probe of a real one.
+/// Opens the device that a request names; `hands` asks a person to move the probe of a real one.
 pub fn open(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Opened, TaskError> {
     open_under(options, surface, hands, Vec::new())
 }
 
-/// Opens the device of an ask as `open` does. `tension` is that of a virtual surface over its nominal tension (ratio),
-/// against time (s).
+/// Opens the device that a request names, as `open` does. `tension` is the tension of a virtual surface divided by its nominal tension
+/// (ratio), against time (s).
 pub fn open_under(
     options: &DeviceAsk,
     surface: &Surface,

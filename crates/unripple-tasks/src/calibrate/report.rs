@@ -132,7 +132,7 @@ fn reciprocity(library: &Library) -> Result<Option<f64>, TaskError> {
 /// Notes on single points that are printed: all are in the library.
 const LISTED: usize = 8;
 
-/// What the log says in words, then what takes tell of themselves, then what is not known of levels.
+/// Notes: sentences of the library's log, then those on single recordings, then the reason why absolute levels are unknown.
 fn notes(library: &Library) -> Vec<String> {
     let said = library.log_book().values().filter_map(|entry| entry.get("said")?.as_str());
     let mut notes: Vec<String> = said.map(str::to_owned).collect();

@@ -18,7 +18,7 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// The scales that the ask gives.
+    /// The scales of outputs and inputs that the request gives.
     pub fn of(ask: &Ask, surface: &Surface) -> Result<Self, TaskError> {
         let own = ask.device.device == DeviceKind::Virtual;
         let output = ask.device.output_scale;

@@ -16,7 +16,7 @@ use unripple_store::{Doubt, Library, PointState, Take};
 /// The check that finds responses which are those of another point: it needs no model.
 const COPIES: &str = "copies";
 
-/// What is kept of the probe's own delay.
+/// Key of the library's log under which the probe's own delay is kept.
 const PROBE: &str = "probe";
 
 /// Delays that are not worth another copy of the library, in samples. Two hundredths of a sample turn 3 kHz by half a
@@ -94,7 +94,7 @@ fn heard(shelf: &Shelf, surface: &Surface, settings: &MeasureOptions) -> Result<
     Ok(measured.limited_to(Band::within(from, to)))
 }
 
-/// What was taken out of a point's responses.
+/// Correction of a point's responses: a delay that was removed, and a factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Taken {
     /// A delay, in s.
@@ -206,8 +206,8 @@ fn doubt(shelf: &mut Shelf, points: &[usize], found: &Verified) -> Result<(), Ta
     Ok(shelf.library.set_doubts(CHECK, doubts)?)
 }
 
-/// What was doubted by a model of points that were not measured in this run; of all, unless the actuators' responses
-/// at each other were.
+/// Doubts of an earlier check against a model that still hold: those about points that were not measured in this run, and those about the
+/// whole library unless the responses between actuators were measured anew.
 fn earlier(shelf: &Shelf) -> Vec<Doubt> {
     let own = shelf.probed..shelf.library.points().len();
     let anew = !own.is_empty() && own.clone().all(|point| shelf.made.contains(&point));

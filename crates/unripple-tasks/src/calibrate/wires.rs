@@ -33,7 +33,7 @@ pub struct Asked<'a> {
 }
 
 impl<'a> Asked<'a> {
-    /// What a calibration knows of its wires.
+    /// The options of the wiring test, taken from those of a calibration.
     pub fn of(known: &'a Campaign<'_>) -> Self {
         Self {
             actuators: known.surface.actuators.iter().map(|actuator| actuator.name.as_str()).collect(),

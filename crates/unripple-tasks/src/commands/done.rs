@@ -1,4 +1,4 @@
-//! A task from its ask as JSON to its report as JSON.
+//! Runs a task from a request as JSON to a report as JSON.
 
 use crate::record::{Record, Request, asked};
 use crate::{Progress, Report, TaskError, folder};
@@ -30,7 +30,7 @@ impl Done {
     }
 }
 
-/// The ask of a task where nothing is asked for, with all its fields, as JSON.
+/// The default request of a task: all fields of its `Ask` with their default values, as JSON.
 ///
 /// # Errors
 /// [`TaskError::Work`] of what JSON cannot hold.
@@ -38,7 +38,7 @@ pub fn default_of<A: Request + Default>() -> Result<Value, TaskError> {
     serde_json::to_value(A::default()).map_err(TaskError::work)
 }
 
-/// Does a task whose ask is JSON.
+/// Performs a task whose request is JSON.
 ///
 /// # Errors
 /// Those of [`asked`], of [`Record::of`] and of the task.

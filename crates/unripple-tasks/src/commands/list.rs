@@ -14,9 +14,9 @@ use std::path::PathBuf;
 pub(crate) struct Command {
     /// Its name, in lower case.
     pub(crate) name: &'static str,
-    /// Its ask where nothing is asked for.
+    /// Its default request, as JSON.
     pub(crate) default_ask: fn() -> Result<Value, TaskError>,
-    /// Does it, from its ask as JSON.
+    /// Performs it, from its request as JSON.
     pub(crate) run: fn(Value, &mut dyn Progress) -> Result<Done, TaskError>,
     /// Does what a record of it holds once more, with results sent elsewhere.
     pub(crate) again: fn(&Record, Option<PathBuf>, &mut dyn Progress) -> Result<Done, TaskError>,

@@ -17,7 +17,7 @@ pub struct Ask {
     pub others: Vec<SurfaceAsk>,
     /// What all surfaces are called in the report, one text for each; by default each has its own name.
     pub labels: Vec<String>,
-    /// Methods to be compared with time reversal; by default all on one surface, and `concentrate` on several.
+    /// Methods to be compared with time reversal; by default every method if there is one surface, only `concentrate` if there are several.
     #[serde(with = "names::methods")]
     pub methods: Vec<Method>,
     /// Points to be in focus.

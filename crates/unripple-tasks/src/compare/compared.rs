@@ -23,7 +23,7 @@ pub struct Compared {
     pub surface: String,
     /// Window T, in s.
     pub window_s: f64,
-    /// Reason for the default window; absent if the ask gave a window.
+    /// Reason for the default window; absent if the request gave a window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window_why: Option<String>,
     /// Number of modes that drives were computed from: those of the band.
@@ -38,7 +38,7 @@ pub struct Compared {
     /// Methods that failed, each with the reason.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub failed: Vec<Failed>,
-    /// Tradeoff curves of the methods that have a parameter; empty on several surfaces, and if the ask has `no_tradeoffs`.
+    /// Tradeoff curves of the methods that have a parameter; empty on several surfaces, and if `no_tradeoffs` was requested.
     pub fronts: Vec<Front>,
     /// Results of the method `felt` for increasing weights of the drive's energy, after those of time reversal; empty where `fronts` is.
     pub felt: Vec<Row>,

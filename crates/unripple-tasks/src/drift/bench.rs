@@ -25,9 +25,9 @@ pub(super) struct Bench {
     wires: Wires,
     /// Factor on each sensor's signal.
     scales: Vec<f64>,
-    /// Samples by which what is heard comes late, if that is known.
+    /// Latency from the drive to the recorded signals, in samples; 0 if it is unknown.
     pub latency: f64,
-    /// What was heard and not yet handed over, from a margin before the next stretch on.
+    /// Recorded signals that were not yet returned, a row for each sensor; they begin a margin before the next period.
     lines: Vec<Vec<f64>>,
     /// Samples sent since the pings began, and blocks lost before.
     sent: usize,
@@ -69,7 +69,7 @@ impl Bench {
         Ok(Self { rig, layout, wires, scales, latency, lines, sent: 0, lost: 0 })
     }
 
-    /// Samples in so many seconds.
+    /// Number of samples in `seconds` seconds.
     pub fn samples(&self, seconds: f64) -> usize {
         (seconds * self.layout.rate).round() as usize
     }
@@ -80,7 +80,7 @@ impl Bench {
         drive.iter().map(|line| line.iter().map(|x| f64::from((x / full) as f32) * full).collect()).collect()
     }
 
-    /// Root mean square of what sensors hear while nothing is driven, over all of them, in their own unit.
+    /// Root mean square of the sensors' signals while nothing is driven, over all sensors, in their own unit.
     ///
     /// # Errors
     /// Those of the device; [`TaskError::Cancelled`].
@@ -103,7 +103,8 @@ impl Bench {
         Ok((squares / count.max(1) as f64).sqrt())
     }
 
-    /// Plays a drive once more from its beginning, `period` samples long, and hands over what was heard of it, a line for each actuator.
+    /// Plays a drive once more from its beginning, `period` samples long, and returns the recorded signals, one for the sensor of each
+    /// actuator.
     ///
     /// # Errors
     /// Those of the device; [`CalibrateError::Gap`] if it lost blocks; [`TaskError::Cancelled`].

@@ -8,8 +8,8 @@ use unripple::physics::Modes;
 use unripple_calibrate::{Drift, Fitted, PingOptions, Tracker, Tracking, Verdict};
 use unripple_store::Library;
 
-/// Share of what is heard that the model of a file may leave unexplained: a microphone's noise and the float32 of a device are far below,
-/// a place that is off by a millimetre is far above.
+/// Share of the sensors' signals that the model of a surface file may leave unexplained. The noise of a microphone and the rounding of a
+/// device to float32 leave far less, an actuator that is off its place by a millimetre far more.
 const MODEL: f64 = 0.02;
 
 /// Words for what a measured tension is compared with where that is a surface file.
@@ -92,7 +92,7 @@ impl Known {
         let (heard, fitted) = model(&library, &surface, [usual.strays, usual.profile], progress)?;
         if let Verdict::Doubtful { why, .. } = &fitted.verdict {
             return Err(TaskError::Work(format!(
-                "{name}: expected a model that explains what its actuators heard, found a doubtful one: {why}"
+                "{name}: expected a model that explains the sensor signals of its actuators, found a doubtful one: {why}"
             )));
         }
         let told = library.logged("scale").cloned().unwrap_or_default();

@@ -17,7 +17,7 @@ const STEADY: f64 = 1e-3;
 /// fit, as that of a surface file which was never fitted, follows what it cannot explain at such rates.
 const FASTEST: f64 = 0.1;
 
-/// What a rate may be off by, as a share of it: rates come out low by a sixth where the band ends at 1 kHz, and by less in wider ones.
+/// Relative error of a rate that is to be expected: rates come out low by a sixth where the band ends at 1 kHz, and by less in wider bands.
 const RATE: f64 = 0.2;
 
 /// Share of its peak and contrast that a focus keeps where nothing need be done.
@@ -176,7 +176,7 @@ impl Report {
         }
     }
 
-    /// What is at fault where no tension explains what is heard.
+    /// The likely reason why no tension explains the sensors' signals, with what to do.
     fn blame(&self) -> &'static str {
         match self.against == super::known::FILE {
             true => "a surface file alone seldom fits a real sheet: calibrate it, then give the library",

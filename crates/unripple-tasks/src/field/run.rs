@@ -49,7 +49,7 @@ fn kept(
 /// Measures what a drive does to a surface as [`run()`] does, without writing a folder, and returns all data.
 ///
 /// # Errors
-/// Those of [`run()`], but for those of writing.
+/// Those of [`run()`], except the errors of writing files.
 pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     let (source, drive) = open(ask, progress)?;
     Ok(measured(ask, source, drive, false, progress)?.0)
@@ -59,7 +59,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
 /// the ask names.
 ///
 /// # Errors
-/// Those of [`make()`], but for those of reading them.
+/// Those of [`make()`], except the errors of reading surface and drive.
 pub fn make_on(
     ask: &Ask,
     source: Source,

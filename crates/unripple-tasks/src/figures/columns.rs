@@ -20,7 +20,7 @@ pub enum Columns {
 }
 
 impl Columns {
-    /// Those of an ask, where 1, 2 or nothing may stand.
+    /// The width of figures that a request gives: 1 or 2 columns, or nothing.
     ///
     /// # Errors
     /// [`TaskError::Ask`] of another number.

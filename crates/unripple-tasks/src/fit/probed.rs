@@ -70,7 +70,7 @@ fn notes(found: &Verified) -> Vec<String> {
     notes
 }
 
-/// Responses of each point times its factor, and earlier by so many samples.
+/// Responses of each point times its factor, and earlier by `late` samples.
 fn corrected(
     responses: &SampledResponses,
     factors: &[f64],

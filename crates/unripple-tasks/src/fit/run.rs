@@ -10,7 +10,7 @@ use unripple::core::{Point, Surface};
 use unripple_calibrate::{FitOptions, Fitted, Verdict};
 use unripple_store::{Library, StoreError};
 
-/// Most half waves of a profile, and most stray loads: beyond, a fit takes hours.
+/// Largest number of half waves of a profile, and of stray loads: beyond it, a fit takes hours.
 const MOST: usize = 8;
 
 /// Modes are computed up to this frequency, in Hz, but no less than 1.4 and no more than 2.8 times the top of the band: above it, the sheet

@@ -59,7 +59,7 @@ fn kept(
 /// Computes and evaluates a drive as [`run()`] does, without writing a folder, and returns all data.
 ///
 /// # Errors
-/// Those of [`run()`], but for those of writing.
+/// Those of [`run()`], except the errors of writing files.
 pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     make_on(ask, source::open(&ask.surface, progress)?, progress)
 }
@@ -67,7 +67,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
 /// Computes and evaluates a drive as [`make()`] does, for a surface or responses that are given instead of those that the ask names.
 ///
 /// # Errors
-/// Those of [`make()`], but for those of reading them.
+/// Those of [`make()`], except the errors of reading the surface or responses.
 pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     source.allows(&needing_modes(ask))?;
     let plant = ask.on.as_ref().map(|on| on.load()).transpose()?;

@@ -29,7 +29,7 @@ const FOLLOWED: f64 = 0.4;
 /// How often fingers are reported, in s of played time. As fast as figures can be read.
 pub(super) const TELL: f64 = 0.2;
 
-/// What is computed before anything plays: seconds for a surface whose modes need a mesh.
+/// Results of the computations that precede playing; they take seconds for a surface whose modes need a mesh.
 pub(super) struct Prepared {
     pub(super) surface: Surface,
     responses: Arc<Responses>,

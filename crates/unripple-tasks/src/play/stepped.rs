@@ -40,8 +40,8 @@ pub struct Stepped {
 }
 
 impl Stepped {
-    /// Opens surface, effects and virtual surface of an ask, with one source of touches, which is polled at the beginning
-    /// of each block. The ask's own `touch`, `seconds` and `keep_drive` are not looked at.
+    /// Opens the surface, effects and virtual surface of a request, with one source of touches, which is polled at the beginning
+    /// of each block. The fields `touch`, `seconds` and `keep_drive` of the request are ignored.
     ///
     /// # Errors
     /// Those of [`run`](super::run()) before it plays; [`TaskError::Input`] for anything that runs in real time.

@@ -17,7 +17,7 @@ pub use hash::{of_bytes, of_path};
 /// What is done with the path of a file that is read.
 pub type Visit<'a> = dyn FnMut(&mut PathBuf) -> Result<(), TaskError> + 'a;
 
-/// An ask as a record holds it: what it reads, and where its results go.
+/// A request for a task, as a record keeps it: which files it reads, and where its results go.
 pub trait Request: Clone + Serialize + DeserializeOwned {
     /// The command that does it.
     const COMMAND: &'static str;
@@ -73,7 +73,7 @@ pub struct FileRead {
     pub sha256: String,
 }
 
-/// How a report was made: the program, the ask with the text of its surfaces, and what was read.
+/// How a report was made: the program, the request with the text of its surfaces, and the files that were read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Name of the JSON schema that the report holds to; empty where an earlier program did not say it.
@@ -118,7 +118,7 @@ pub fn built_from(commit: &'static str) {
 }
 
 impl Record {
-    /// The record of an ask that is about to be done, with surfaces and files as they are now.
+    /// The record of a request that is about to be performed, with surfaces and files as they are now.
     ///
     /// ```
     /// use unripple_tasks::{Record, focus};
@@ -199,7 +199,7 @@ impl Record {
         Ok(())
     }
 
-    /// The ask, provided that the files it reads are still what they were.
+    /// The request, provided that the files that it reads have not changed since.
     ///
     /// # Errors
     /// [`TaskError::Input`] that names what is gone or has changed, or the field that this version does not know.
@@ -221,13 +221,13 @@ impl Record {
     }
 }
 
-/// The ask that a JSON value holds; fields that it leaves out have their defaults.
+/// The request that a JSON value holds; fields that it leaves out have their defaults.
 ///
 /// # Errors
 /// [`TaskError::Input`] of a field that the command does not know, or of a value that the field cannot have.
 pub fn asked<A: Request>(ask: Value) -> Result<A, TaskError> {
     serde_json::from_value(ask)
-        .map_err(|error| TaskError::Input(format!("the ask of `{}`: {error}", A::COMMAND)))
+        .map_err(|error| TaskError::Input(format!("the options of `{}`: {error}", A::COMMAND)))
 }
 
 /// Date and time of day now, UTC, as ISO 8601 writes them: `2026-03-14T09:26:53Z`.

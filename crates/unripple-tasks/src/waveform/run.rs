@@ -47,7 +47,7 @@ fn kept(
 /// Computes and evaluates a drive as [`run()`] does, without writing a folder, and returns all data.
 ///
 /// # Errors
-/// Those of [`run()`], but for those of writing.
+/// Those of [`run()`], except the errors of writing files.
 pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     check(ask)?;
     make_on(ask, source::open(&ask.surface, progress)?, progress)
@@ -57,7 +57,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
 /// planned on modes above the band: not on responses of the band that are given, but on what has been solved.
 ///
 /// # Errors
-/// Those of [`make()`], but for those of reading the surface.
+/// Those of [`make()`], except the errors of reading the surface.
 pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     check(ask)?;
     let common =

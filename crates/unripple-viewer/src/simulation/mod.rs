@@ -135,8 +135,8 @@ impl Simulation {
         self.tell_anew(out);
     }
 
-    /// Lets `seconds` of the pages' time pass, and shows the result. The surface is stepped as long as `more` returns true; `viewers` is
-    /// the number of open pages.
+    /// Advances by `seconds` of real time, as people at the pages experience it, and shows the result. The surface is stepped as long as
+    /// `more` returns true; `viewers` is the number of open pages.
     pub fn advance(
         &mut self,
         seconds: f64,

@@ -8,10 +8,11 @@ use unripple::physics::stepper::History;
 /// trace smooth. Twice as many take twice the memory.
 const STATES: f64 = 4.0;
 
-/// Most bytes that the stored states of what is shown may take: a second of 2800 modes up to 3 kHz. Doubled, twice the time or modes.
+/// Largest memory for the stored states of what is shown, in bytes: a second of 2800 modes up to 3 kHz. Twice as much holds twice the time
+/// or twice as many modes.
 pub const MOST_BYTES: usize = 256 << 20;
 
-/// Number of states of `modes` modes within these bytes: each has a displacement and a velocity of four bytes for every mode.
+/// Number of states of `modes` modes that fit in [`MOST_BYTES`]: each has a displacement and a velocity of four bytes for every mode.
 pub fn room(modes: usize) -> usize {
     MOST_BYTES / (8 * modes.max(1))
 }

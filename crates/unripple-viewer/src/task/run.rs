@@ -168,7 +168,7 @@ fn origins(ask: &Ask) -> Result<Vec<Origin>, TaskError> {
     ask.framed_by.iter().map(read).collect()
 }
 
-/// Is over when the task is cancelled, or after so many seconds.
+/// Ends when the task is cancelled, or after `seconds` seconds if they are given.
 async fn until(progress: &dyn Progress, seconds: Option<f64>) {
     let began = Instant::now();
     while !progress.cancelled() && seconds.is_none_or(|s| began.elapsed().as_secs_f64() < s) {

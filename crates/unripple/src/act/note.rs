@@ -176,8 +176,8 @@ fn linear_theory(surface: &Surface, largest: f64, found: &Linearity) -> Vec<Note
     }
     if let Some(share) = found.share_of_yield.filter(|share| *share > 1.0) {
         note(format!(
-            "bending strains the faces by {:.2e} and stretching the middle by {:.2e}: with the tension, {share:.1} times the \
-             strain at which the sheet yields",
+            "the strain is {:.2e} at the faces by bending and {:.2e} in the mid-plane by stretching: with the tension, {share:.1} times \
+             the strain at which the sheet yields",
             found.bending_strain, found.stretching_strain
         ));
     }

@@ -40,7 +40,7 @@ struct Levelled {
     focused: Focused,
     drive: Drive,
     by: DecidedBy,
-    /// What the drive at its limit would have to be multiplied by; `None` where nothing decides.
+    /// Factor by which the drive at its limit would have to be multiplied to reach its level; `None` where nothing sets a level.
     factor: Option<f64>,
     /// Whether a drive that is shaped by limits could only be scaled.
     scaled: bool,

@@ -50,7 +50,7 @@ pub struct Headroom {
     pub limit: &'static str,
     /// The limit, in the drive's unit.
     pub allowed: f64,
-    /// What the drive takes, in its unit: of the actuator that takes most, or of all together.
+    /// The drive's own value of the quantity that is limited, in the drive's unit: of the actuator where it is largest, or of all together.
     pub used: f64,
     /// Headroom below the limit, in dB.
     pub below_db: f64,

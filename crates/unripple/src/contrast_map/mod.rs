@@ -15,7 +15,7 @@ const POINTS: usize = 128;
 /// A readout weight below this share of the largest anywhere is rounding error, not motion.
 const REST: f64 = 1e-9;
 
-/// Most cells of a map along its longer side. A million cells bound memory, and no screen shows more.
+/// Largest number of cells of a map along its longer side. A million cells bound memory, and no screen shows more.
 const MOST_ACROSS: usize = 1024;
 
 /// Most samples of a window: past it a window is taken for a mistake of unit, being minutes long at any usual rate.

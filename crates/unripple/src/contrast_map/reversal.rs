@@ -8,7 +8,7 @@ use unripple_linalg::{Mat, product};
 type Square = [[f64; 2]; 2];
 
 /// The matrix G (modes x modes): from the shape weights at a target to the velocity of every mode at the focal instant
-/// of time reversal over so many samples, up to a common factor.
+/// of time reversal over `samples` samples, up to a common factor.
 pub(super) fn map(modal: &ModalResponses, samples: usize) -> Mat<f64> {
     let (poles, rate) = (&modal.poles, modal.conditions.rate);
     let sums = Sums::plan(poles, rate, samples);

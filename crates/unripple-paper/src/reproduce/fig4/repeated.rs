@@ -29,7 +29,7 @@ const EQUAL: f64 = 1e-4;
 /// begins late in the first.
 pub(super) const LASTS: f64 = 2.35;
 
-/// What is drawn and measured: from so long after the first common focus, in seconds.
+/// Start of the interval that is drawn and measured, in seconds after the first common focus.
 pub(super) const STEADY: f64 = 0.9;
 
 /// How long a pulse is left out of the noise, in seconds on either side of its focus. Twice as long would leave out

@@ -19,7 +19,7 @@ pub(super) const WORTHWHILE: f64 = 0.9;
 
 /// Least number of times that waves cross the surface in a window, along the mean chord. In a shorter window waves do not
 /// reach all of the surface, and the contrast depends on how much of it is silent rather than on the quality of the focus.
-/// Doubled, small surfaces would get windows twice as long.
+/// With twice this value, small surfaces would get windows twice as long.
 const CROSSINGS: f64 = 3.0;
 
 /// Description of a window of three crossings, for people.

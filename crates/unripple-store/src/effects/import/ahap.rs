@@ -27,7 +27,7 @@ pub(super) fn read(root: &Node, notes: &mut Notes) -> Result<(), StoreError> {
     let sharpness = Control::read(&items, "HapticSharpnessControl", 0.0, [-1.0, 1.0])?;
     for item in &items {
         if let Some(parameter) = item.get("Parameter") {
-            return Err(parameter.refuse("a ParameterCurve in place of a Parameter, which is for players"));
+            return Err(parameter.refuse("a ParameterCurve in place of a Parameter, which is not supported"));
         }
         let Some(event) = item.get("Event") else {
             item.require("ParameterCurve", "or Event")?;

@@ -15,7 +15,7 @@ const TAKES: &str = "takes";
 /// The key of the library's log under which it is noted that recordings were resampled.
 const RATE: &str = "rate";
 
-/// What a file is known by.
+/// Properties by which a recording is recognised: size, time, sample rate and a hash of its samples.
 #[derive(Clone, Debug, PartialEq)]
 struct Mark {
     bytes: u64,

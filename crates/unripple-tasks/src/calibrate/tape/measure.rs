@@ -77,7 +77,8 @@ impl Bench<'_> {
         same.map(|(file, _)| file.clone()).collect()
     }
 
-    /// What each point is to be made of: its own recordings, those of the actuators, scales, and who is left out.
+    /// For each point, the data from which its responses are computed: its own recordings, those of the actuators, scales, and the
+    /// actuators that are left out.
     fn made(&self, there: &[Wanted], marks: &Marks) -> BTreeMap<usize, Value> {
         let of = |number: usize| there.iter().filter(move |one| one.number == number);
         let (last, scale) = (self.campaign.places.points.len(), self.campaign.scales.told());
@@ -94,7 +95,7 @@ impl Bench<'_> {
         numbers.into_iter().filter(|number| *number != last).map(|number| (number, point(number))).collect()
     }
 
-    /// What the actuators' own points are to be made of, if there is anything.
+    /// The data from which the actuators' own points are computed; `None` if there is no recording of the actuators.
     fn made_own(&self, there: &[Wanted], marks: &Marks) -> Option<Value> {
         let last = self.campaign.places.points.len();
         let own: Vec<&Wanted> = there.iter().filter(|one| one.number == last).collect();
@@ -163,7 +164,7 @@ impl Bench<'_> {
     }
 }
 
-/// What was measured, or why a recording itself is no good; other errors are nobody's recording's.
+/// The measured channels, or the reason why the recording cannot be used; an error that is not due to a recording is returned as such.
 fn heard(found: Result<Vec<Channel>, CalibrateError>) -> Result<Result<Vec<Channel>, String>, TaskError> {
     match found {
         Ok(channels) => Ok(Ok(channels)),
@@ -174,11 +175,11 @@ fn heard(found: Result<Vec<Channel>, CalibrateError>) -> Result<Result<Vec<Chann
     }
 }
 
-/// What the recordings are made into.
+/// State of the evaluation of recordings into a library.
 struct Work<'b, 'a> {
     bench: &'b Bench<'a>,
     rig: TapeRig,
-    /// What each point is made of.
+    /// The data from which each point is computed, by its number.
     made: BTreeMap<usize, Value>,
     /// And the actuators' own points.
     made_own: Option<Value>,

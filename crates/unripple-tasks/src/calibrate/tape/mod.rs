@@ -153,7 +153,7 @@ impl Bench<'_> {
         self.present().iter().map(|one| (self.folder.join(&one.file), one.at.is_none())).collect()
     }
 
-    /// Whether there is what nothing can be read without: a recording of the actuators, where any input hears them.
+    /// Whether evaluation can begin: some recording is there, and that of the actuators is, if the plan has one.
     fn can_begin(&self) -> bool {
         let present = self.present();
         let own = self.wanted.iter().any(|one| one.at.is_none());

@@ -165,7 +165,7 @@ pub fn put(folder: &Path, plan: &Value, drive: &Drive, before: Option<&Value>) -
     Ok(())
 }
 
-/// What another plan has otherwise, a line for each key, recordings last.
+/// The differences between two plans, a line for each key, recordings last.
 fn differences(plan: &Value, before: &Value) -> Vec<String> {
     let keys = plan.as_object().into_iter().flatten().filter(|(key, _)| *key != "recordings");
     let mut other: Vec<String> = keys

@@ -96,7 +96,7 @@ impl Takes {
         }
     }
 
-    /// The sample at which playing began, by what actuators hear of themselves: most agree, but for dead ones.
+    /// The sample at which playing began, from the signal of each actuator at its own sensor: all but dead actuators agree.
     fn heard_themselves(&self, lines: &[Vec<f64>]) -> Option<f64> {
         let own = |(actuator, input): (usize, &usize)| {
             let sent = self.drive.channels().get(*self.wires.drives.get(actuator)?)?;
@@ -110,8 +110,8 @@ impl Takes {
         all.iter().map(|at| near(*at)).max_by_key(Vec::len).and_then(median)
     }
 
-    /// The sample at which playing began, by a reference. It hears all outputs or one; all play the same sweep, so that only `anchor` tells
-    /// which.
+    /// The sample at which playing began, from the reference channel. It records all outputs or one; since all play the same sweep, only
+    /// `anchor` tells which.
     fn of_reference(&self, line: &[f64], anchor: Option<f64>) -> Option<f64> {
         let whole = self.like(line, &sum(self.drive.channels()))?;
         let one = |sent: &Vec<f64>| self.like(line, sent).filter(|like| like.correlation > whole.correlation);
@@ -157,7 +157,7 @@ impl Takes {
         Ok(lines.collect())
     }
 
-    /// Samples by which a recording has to be moved: as the telling channels agree; none where there are none.
+    /// Samples by which a recording has to be moved: the delay on which the channels in `known` agree; 0 if `known` is empty.
     fn late(&self, wanted: &Wanted, lines: &[Vec<f64>]) -> Result<f64, Fault> {
         if self.known.is_empty() {
             return Ok(0.0);
@@ -215,7 +215,7 @@ impl Takes {
         Delay::between(line, known, self.rate(), self.reader.band).ok()
     }
 
-    /// Refuses a recording in which a telling channel is another than it was.
+    /// Refuses a recording in which the signal of a channel in `known` is found in another channel.
     fn in_place(&self, wanted: &Wanted, lines: &[Vec<f64>]) -> Result<(), Fault> {
         for (input, known) in &self.known {
             let likeness = |line: &Vec<f64>| self.like(line, known).map_or(0.0, |delay| delay.correlation);
@@ -244,7 +244,7 @@ impl Takes {
         Err(Fault::new(&wanted.file, why, "begin to record first, then to play"))
     }
 
-    /// So many samples as are played, from `late` on.
+    /// As many samples of a recording as are played, from sample `late` on.
     fn moved(&self, line: &[f64], late: f64) -> Vec<f64> {
         let at = |i: usize| usize::try_from(i as i64 + late as i64).ok().and_then(|i| line.get(i));
         (0..self.drive.samples()).map(|i| at(i).copied().unwrap_or(0.0)).collect()

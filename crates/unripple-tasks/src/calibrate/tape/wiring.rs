@@ -294,7 +294,7 @@ struct Hearing<'a> {
     channel: &'a Channel,
 }
 
-/// Whether those who hear hear no more of an actuator than noise, beside the others' loudest.
+/// Whether an actuator is dead: compared with the strongest response to other actuators, the sensors record no more of it than noise.
 fn is_dead(hearing: &[Hearing<'_>], drive: usize) -> bool {
     let others = hearing.iter().filter(|one| one.itself != Some(drive));
     let share = |one: &Hearing<'_>| {
