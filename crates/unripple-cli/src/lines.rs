@@ -38,7 +38,8 @@ const LONG: Duration = Duration::from_secs(2);
 /// and a log of an hour has some two hundred lines.
 const BETWEEN: [Duration; 2] = [Duration::from_secs(3), Duration::from_secs(20)];
 
-/// Share of the time since the beginning that passes between lines on the same stage, within [`BETWEEN`]. Doubled, there are half as many.
+/// Share of the time since the beginning that passes between lines on the same stage, within [`BETWEEN`]. With twice this value, there are
+/// half as many.
 const RARER: f64 = 0.05;
 
 /// Progress of a task that is printed line by line. Where it ends up is the caller's: every method returns the line to be printed, if there is one.

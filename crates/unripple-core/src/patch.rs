@@ -20,8 +20,8 @@ pub enum Patch {
     },
 }
 
-/// Number of intervals in which a curved side of a boundary is searched for its deepest places in a rectangle. Doubled, notches half as
-/// wide are found.
+/// Number of intervals in which a curved side of a boundary is searched for its deepest places in a rectangle. With twice this value,
+/// notches half as wide are found.
 const LATTICE: usize = 64;
 
 /// Steps of golden-section search around such a place: it ends at 1e-9 of the side.

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use unripple_core::Pole;
 use unripple_linalg::{Accum, Mat, MatMut, MatRef, Par, multiply};
 
-/// Number of rows that one thread works on at once, so that they share what is read of the modal velocities. Doubled, there
+/// Number of rows that one thread works on at once, so that they share what is read of the modal velocities. With twice this value, there
 /// are half as many tasks for the threads, and each holds twice the samples.
 const ROWS: usize = 128;
 
@@ -19,11 +19,11 @@ const ROWS: usize = 128;
 const MANY: usize = 24;
 
 /// Number of reduced samples in a strip of time for the interpolation of all rows together: the strip is multiplied by a
-/// band matrix that has `taps` nonzeros in a column of `taps + 5`. Doubled, there are fewer products with a greater share of
+/// band matrix that has `taps` nonzeros in a column of `taps + 5`. With twice this value, there are fewer products with a greater share of
 /// multiplications by zero.
 const STRIP: usize = 6;
 
-/// Largest ratio of full to reduced sample rate that is tried. Doubled, plans take twice as long and gain
+/// Largest ratio of full to reduced sample rate that is tried. With twice this value, plans take twice as long and gain
 /// only where all modes lie below a 64th of half the sample rate.
 const MOST: usize = 64;
 

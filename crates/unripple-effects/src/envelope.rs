@@ -4,11 +4,11 @@ use crate::error::within;
 use crate::{Curve, EffectsError, Wave, limits};
 use std::f64::consts::{PI, TAU};
 
-/// Duration of the fade-out of a waveform that would end abruptly, in s, so that its end does not click. Doubled,
+/// Duration of the fade-out of a waveform that would end abruptly, in s, so that its end does not click. With twice this value,
 /// the fade becomes more noticeable.
 const EDGE: f64 = 2e-3;
 /// Least duration of the loop of a sine, in s: rounding the loop to whole samples changes its duration by at most half a
-/// sample, and its frequency in proportion. Doubled, the error is half as large, for twice the memory.
+/// sample, and its frequency in proportion. With twice this value, the error is half as large, for twice the memory.
 const LOOP: f64 = 0.25;
 
 /// A waveform a(t) sin(2π∫f dt), given by its amplitude a and frequency f, both piecewise-linear functions of time.

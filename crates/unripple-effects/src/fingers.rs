@@ -4,7 +4,7 @@ use crate::play::{Moment, Play};
 use crate::{Region, limits};
 use unripple_core::{Outline, Point};
 
-/// Time constant of the first-order low-pass filter that smooths a finger's velocity, in s. Doubled, gains follow the speed
+/// Time constant of the first-order low-pass filter that smooths a finger's velocity, in s. With twice this value, gains follow the speed
 /// more slowly; halved, they follow the noise of the measured positions.
 const SMOOTHING: f64 = 0.015;
 /// Least time between two touches for which a velocity is computed, in s: a division by less would make it

@@ -37,7 +37,7 @@ pub const HYSTERESIS: [f64; 2] = [0.0, 0.45];
 /// An angle, in rad: two turns either way, more than needed.
 pub const ANGLE: [f64; 2] = [-13.0, 13.0];
 
-/// Longest envelope or score, and greatest total duration of the waveforms of a set, in s: 23 MB at 48 kHz. Doubled,
+/// Longest envelope or score, and greatest total duration of the waveforms of a set, in s: 23 MB at 48 kHz. With twice this value,
 /// they take twice the memory.
 pub const LONGEST: f64 = 120.0;
 /// Largest number of effects in a set: each is evaluated at every touch. With twice this value, a touch takes up to twice as long to
@@ -68,7 +68,7 @@ pub const MOST_CUES: usize = 4096;
 /// Largest number of pulses that one effect gives for one movement of one finger; a longer movement gives no more. With twice this
 /// value, a finger that jumps sets off up to twice as many.
 pub const MOST_IN_STEP: usize = 64;
-/// How late a timed pulse may still be cued, in s; pulses that are overdue by more are skipped. Doubled, a player that
+/// How late a timed pulse may still be cued, in s; pulses that are overdue by more are skipped. With twice this value, a player that
 /// was interrupted catches up with more pulses at once.
 pub const LATEST: f64 = 0.25;
 /// How long a finger is assumed to keep its velocity when no touch event arrives, in s, so that the pulses of textures come

@@ -8,7 +8,7 @@ use std::ops::Range;
 use unripple_core::Observed;
 use unripple_linalg::{Mat, product};
 
-/// Values of weighed modes that are held at once, 128 MiB of them. Doubled, twice the memory and half the
+/// Values of weighed modes that are held at once, 128 MiB of them. With twice this value, twice the memory and half the
 /// passes; results stay the same.
 const HELD: usize = 1 << 25;
 

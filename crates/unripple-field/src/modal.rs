@@ -9,7 +9,7 @@ use unripple_core::{Drive, ModalResponses, Point};
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product};
 
 /// Points of a block of the field: small enough to stay in cache, with [`SAMPLES`], while it is tallied.
-/// Doubled, blocks of 256 KiB may fall out of it.
+/// With twice this value, blocks of 256 KiB may fall out of it.
 const POINTS: usize = 256;
 /// Samples of a block of the field; see [`POINTS`].
 const SAMPLES: usize = 128;
@@ -17,8 +17,8 @@ const SAMPLES: usize = 128;
 /// Values of states (modes x samples) that are held at once, up to 32 MiB of them. Twice as many take twice the memory.
 pub(crate) const STATES: usize = 1 << 22;
 
-/// Most readout weights of a block, 128 MiB of them in each thread: blocks of fewer points for more than 65 536 modes. Doubled,
-/// twice the memory.
+/// Most readout weights of a block, 128 MiB of them in each thread: blocks of fewer points for more than 65 536 modes. With twice this
+/// value, twice the memory.
 const READ: usize = 1 << 24;
 
 /// Most readout weights that are kept between surveys, half a GiB of them; if there are more, they are computed again

@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 use unripple_core::{Outline, Point};
 
-/// Directions in which a spot is measured: opposite pairs make the diameters that are averaged. Doubled,
+/// Directions in which a spot is measured: opposite pairs make the diameters that are averaged. With twice this value,
 /// twice the readouts for a mean that hardly changes.
 const DIRECTIONS: usize = 16;
 
-/// Steps of the regula falsi that bring a crossing to well under a thousandth of the wavelength. Doubled,
+/// Steps of the regula falsi that bring a crossing to well under a thousandth of the wavelength. With twice this value,
 /// digits that no figure shows.
 const REFINEMENTS: usize = 3;
 

@@ -10,7 +10,7 @@ use crate::{
 };
 use unripple_core::{Drive, Point, Responses, require, window_samples};
 
-/// Decay, in nepers, after which earlier periods no longer matter to a repeated drive: to 1/1000. Doubled, repeated
+/// Decay, in nepers, after which earlier periods no longer matter to a repeated drive: to 1/1000. With twice this value, repeated
 /// drives last longer by as much, and are periodic to 1e-6.
 const SETTLED: f64 = 6.9;
 

@@ -12,11 +12,11 @@ const STEPS: usize = 80;
 /// Smaller, it takes a step or two more.
 pub(crate) const GAP: f64 = 1e-6;
 
-/// Most attempts at a rise in level above that of the unlimited drive, where several targets cannot reach their levels
-/// together: each is at half the rise of the one before. Doubled, the last is at a 2048th of that rise instead of a 32nd.
+/// Largest number of attempts at a rise in level above that of the unlimited drive, where several targets cannot reach their levels
+/// together: each is at half the rise of the one before. With twice this value, the last is at a 2048th of that rise instead of a 32nd.
 const ATTEMPTS: usize = 6;
 
-/// Halvings of a step at most: a billionth of Newton's. Doubled, what does not descend takes longer to fail.
+/// Halvings of a step at most: a billionth of Newton's. With twice this value, what does not descend takes longer to fail.
 const HALVINGS: usize = 30;
 
 /// Bisections for the multiplier of an rms limit: to the last bits. More change nothing.

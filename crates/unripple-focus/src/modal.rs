@@ -6,7 +6,7 @@ use unripple_core::{ModalResponses, Onset, Point, Pole};
 use unripple_dsp::ModalSynth;
 use unripple_linalg::{Mat, MatRef, Number, product};
 
-/// Values of responses that are held at once while their energies are summed, 32 MiB of them. Doubled, twice
+/// Values of responses that are held at once while their energies are summed, 32 MiB of them. With twice this value, twice
 /// the memory; sums differ by rounding.
 const VALUES_AT_ONCE: usize = 1 << 22;
 
@@ -19,7 +19,7 @@ pub(crate) const REST: f64 = 1e-9;
 const SINGLE: f64 = 1e-6;
 
 /// Modes times samples of the largest synthesis that is planned ahead rather than summed block by block:
-/// tables of up to three quarters of a GiB. Doubled, plans may take twice the memory.
+/// tables of up to three quarters of a GiB. With twice this value, plans may take twice the memory.
 const PLANNED: usize = 1 << 26;
 
 /// Synthesises responses from modes.

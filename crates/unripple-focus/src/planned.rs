@@ -11,7 +11,8 @@ use unripple_linalg::{Mat, norm};
 /// difference of large terms. Larger, the sum would lose contrast that the optimisation has gained.
 const ACCURACY: f64 = 1e-9;
 
-/// Most points of targets: the equations for their levels are a matrix of half a GiB. Twice as many make one four times as large.
+/// Largest number of points of targets: the equations for their levels are a matrix of half a GiB. Twice as many make one four times as
+/// large.
 const MOST_POINTS: usize = 1 << 13;
 
 /// Drives optimised through the state at the focal instant, for one window or one period.

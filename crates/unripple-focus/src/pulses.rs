@@ -6,14 +6,15 @@ use crate::settle::settle;
 use crate::{FocusError, Options, Target, level, target};
 use unripple_core::{Drive, Point, Responses, require, window_samples};
 
-/// Decay, in nepers, after which responses are cut off: to 1/10 000. Doubled, recordings are twice as long for levels
+/// Decay, in nepers, after which responses are cut off: to 1/10 000. With twice this value, recordings are twice as long for levels
 /// that are right to 1e-8.
 const FORGOTTEN: f64 = 9.2;
 
-/// Most samples of all recordings together, half a GiB of them. Twice as many take a GiB.
+/// Largest number of samples of all recordings together, half a GiB of them. Twice as many take a GiB.
 const MOST_VALUES: usize = 1 << 26;
 
-/// Most points of all pulses together, whose responses make a square matrix of half a GiB. Twice as many make one four times as large.
+/// Largest number of points of all pulses together, whose responses make a square matrix of half a GiB. Twice as many make one four times
+/// as large.
 const MOST_POINTS: usize = 1 << 13;
 
 /// A focal pulse: where, when, and with which velocity.

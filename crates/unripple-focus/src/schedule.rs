@@ -6,7 +6,7 @@ use unripple_core::require;
 /// Largest number of samples of a drive over all channels: 400 MB of them. With twice this value, drives may be twice as long.
 pub(crate) const MOST_SAMPLES: usize = 50_000_000;
 
-/// A common period may be this many times the longest one; beyond, the longest stands for it. Doubled, drives
+/// A common period may be this many times the longest one; beyond, the longest stands for it. With twice this value, drives
 /// of odd rates are up to twice as long, and exact where they would have been cut.
 const MOST_PERIODS: usize = 8;
 

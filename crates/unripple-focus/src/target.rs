@@ -3,7 +3,7 @@
 use crate::FocusError;
 use unripple_core::{Outline, Point, require};
 
-/// Most points over all targets: each has responses of its own. Doubled, the largest targets take twice the
+/// Largest number of points over all targets: each has responses of its own. With twice this value, the largest targets take twice the
 /// time.
 const MOST_POINTS: usize = 100_000;
 

@@ -12,7 +12,7 @@ use unripple_dsp::ModalSynth;
 use unripple_linalg::{Mat, MatRef};
 use unripple_plates::decay_rate;
 
-/// Number of points whose sampled responses one thread computes at once. Doubled, there are half as many tasks to share
+/// Number of points whose sampled responses one thread computes at once. With twice this value, there are half as many tasks to share
 /// among threads.
 const POINTS: usize = 64;
 
@@ -21,7 +21,7 @@ const POINTS: usize = 64;
 const LIBRARY_ACCURACY: f64 = 1e-6;
 
 /// With loads, modes are kept one by one up to this multiple of the top frequency; those above are far from
-/// resonance within the band. Doubled, eigenvalue problems have up to four times the coordinates, and take 64
+/// resonance within the band. With twice this value, eigenvalue problems have up to four times the coordinates, and take 64
 /// times as long.
 const DYNAMIC: f64 = 1.1;
 
@@ -159,7 +159,7 @@ pub fn stepped_hz(surface: &Surface, max_hz: f64) -> Result<f64, PhysicsError> {
 }
 
 /// Largest frequency of the modes that samples stand for, as a share of the sample rate: above half of it, samples take a mode for one as
-/// far below, and filters need some room. Doubled, that would happen.
+/// far below, and filters need some room. With twice this value, that would happen.
 const OF_RATE: f64 = 0.45;
 
 /// The frequency `hz` up to which modes are wanted, at most 0.45 of the surface's sample rate, but never below `least`; all in Hz.

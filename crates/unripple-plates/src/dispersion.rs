@@ -4,11 +4,11 @@ use std::f64::consts::{PI, TAU};
 use unripple_core::{Air, Sheet};
 use unripple_linalg::c64;
 
-/// Density of air ρ_0 at 20 °C and 1013 hPa, in kg/m³. Doubled, the added mass of the air beside a film would
+/// Density of air ρ_0 at 20 °C and 1013 hPa, in kg/m³. With twice this value, the added mass of the air beside a film would
 /// double.
 pub const AIR_DENSITY: f64 = 1.204;
 
-/// Speed of sound c_0 in dry air at 20 °C, in m/s. Doubled, the coincidence frequency of a plate would be four times as
+/// Speed of sound c_0 in dry air at 20 °C, in m/s. With twice this value, the coincidence frequency of a plate would be four times as
 /// high.
 pub const AIR_CELERITY: f64 = 343.2;
 

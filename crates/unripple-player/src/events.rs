@@ -11,8 +11,8 @@ use pulp::Arch;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Most blocks of the ledger that are summed again per block, where something stopped early: a bound on the work.
-/// Doubled, room that was given up is free again in half the time.
+/// Largest number of blocks of the ledger that are summed again per block, where something stopped early: a bound on the work.
+/// With twice this value, room that was given up is free again in half the time.
 const REFILLS: u64 = 4;
 
 /// Drives: those that repeat, those that sound, and the ledger of what is committed.

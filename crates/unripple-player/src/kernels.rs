@@ -2,7 +2,7 @@
 
 use pulp::NullaryFnOnce;
 
-/// Samples worked on at once: the float32 numbers of a 512-bit register. Doubled, results of sums differ by
+/// Samples worked on at once: the float32 numbers of a 512-bit register. With twice this value, results of sums differ by
 /// rounding.
 const LANES: usize = 16;
 

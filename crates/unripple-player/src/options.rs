@@ -98,7 +98,7 @@ impl Default for WaveOptions {
     }
 }
 
-/// Most of anything that options may ask for: a bound on what is allocated. Doubled, options of twice the
+/// Most of anything that options may ask for: a bound on what is allocated. With twice this value, options of twice the
 /// size are taken.
 const MOST: usize = 1 << 20;
 

@@ -15,7 +15,7 @@ use crate::{At, Command, Count, Desk, Meters, Options, PlayerError, Report, Why,
 use rtrb::{Consumer, RingBuffer};
 use std::sync::Arc;
 
-/// Seconds of the fade with which a player ends when its desk is dropped: short, and without a click. Doubled, it
+/// Seconds of the fade with which a player ends when its desk is dropped: short, and without a click. With twice this value, it
 /// sounds for as much longer.
 const ABANDONED: f64 = 0.02;
 

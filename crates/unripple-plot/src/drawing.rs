@@ -20,7 +20,7 @@ pub struct Drawing {
 /// as large.
 pub const PRINT_DPI: f64 = 300.0;
 
-/// Most pixels in a picture, so that a slip in its size cannot take all memory.
+/// Largest number of pixels in a picture, so that a slip in its size cannot take all memory.
 const MOST_PIXELS: f64 = 1e8;
 
 impl Drawing {

@@ -34,7 +34,7 @@ pub struct Marker {
 
 /// Pixels per point of an embedded picture: 200 per inch, interpolated further by the viewer.
 pub(crate) const DENSITY: f64 = 200.0 / 72.0;
-/// Most pixels along a side of an embedded picture. It bounds the file's size: at 200 to an inch that is 8 inches.
+/// Largest number of pixels along a side of an embedded picture. It bounds the file's size: at 200 to an inch that is 8 inches.
 pub(crate) const LONGEST: usize = 1600;
 
 /// Draws a field clipped to the outline, or whole where there is none.

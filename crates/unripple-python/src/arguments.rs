@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use std::ops::RangeInclusive;
 use unripple::core::{Outline, Point};
 
-/// Most characters of a value in a message. Twice as many fill two lines with one value.
+/// Largest number of characters of a value in a message. Twice as many fill two lines with one value.
 const SHOWN: usize = 80;
 
 /// A whole number within a range.

@@ -20,7 +20,8 @@ use unripple_touch::{Pusher, TouchError, pushed};
 /// Fewest and most samples of a block, as the player takes.
 const BLOCKS: (u64, u64) = (8, 8192);
 
-/// Most samples over all actuators that one call returns, 1 GiB of float32. Twice as many are asked for by mistake rather than on purpose.
+/// Largest number of samples over all actuators that one call returns, 1 GiB of float32. Twice as many are asked for by mistake rather
+/// than on purpose.
 const MOST_SAMPLES: u64 = 1 << 28;
 
 /// A surface in play, stepped block by block: touches that are pushed here set off effects, whose drives are computed and mixed under the

@@ -4,8 +4,8 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::OnceLock;
 use unripple_tasks::TaskError;
 
-/// Most threads of a call, above the number of cores of any machine that this is meant for: threads beyond that are most likely a mistake,
-/// and cost memory each.
+/// Largest number of threads of a call, above the number of cores of any machine that this is meant for: threads beyond that are most
+/// likely a mistake, and cost memory each.
 const MOST: usize = 1024;
 
 /// Number of the process that first used the shared pool. One that is forked from it has the pool and none of its threads.

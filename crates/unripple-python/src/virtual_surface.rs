@@ -16,15 +16,16 @@ use unripple_tasks::{DeviceAsk, TaskError, device, judge};
 /// Time after which long stepping looks for signals: a quarter of the 0.2 s in which a call is to end after Ctrl+C.
 pub(crate) const TURN: Duration = Duration::from_millis(50);
 
-/// Most samples of a block, as the device takes, and largest distance of the samples that are watched.
+/// Largest number of samples of a block, as the device takes, and largest distance of the samples that are watched.
 const LONGEST_BLOCK: u64 = 1_000_000;
 const LONGEST_STRIDE: u64 = LONGEST_BLOCK;
 
-/// Most fingers at once, as the simulation takes, and how many there may be by default. Each costs a coordinate in every step.
+/// Largest number of fingers at once, as the simulation takes, and how many there may be by default. Each costs a coordinate in every
+/// step.
 const MOST_FINGERS: u64 = 64;
 const FINGERS: u64 = 4;
 
-/// Most places that are watched: a grid of 64 by 64. Each costs a sum over all modes in every step.
+/// Largest number of places that are watched: a grid of 64 by 64. Each costs a sum over all modes in every step.
 const MOST_WATCHED: usize = 4096;
 
 /// Longest tap, in s, as the device plays it. A finger that presses for longer is put down.

@@ -7,7 +7,7 @@ use crate::decimal;
 const RADIANS: (&str, i64) = ("17453292519943295769236907684886127134428719", -45);
 /// 180/π, in the same form.
 const DEGREES: (&str, i64) = ("5729577951308232087679815481410517033240547", -41);
-/// Most digits of a text that are looked at: 17 are enough to tell neighbouring `f64` apart.
+/// Largest number of digits of a text that are looked at: 17 are enough to tell neighbouring `f64` apart.
 const MOST_DIGITS: usize = 60;
 
 /// The angle in radians nearest to `text` in degrees, a decimal number as Rust parses it; `None` if it is not one.

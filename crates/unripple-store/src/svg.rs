@@ -22,7 +22,7 @@ const PIXEL: f64 = 0.0254 / 96.0;
 const LARGEST: f64 = 100.0;
 /// Finest tolerance, in metres: the number of points grows with the inverse root of it, by 1.4 for half.
 const FINEST: f64 = 1e-7;
-/// Most points of a drawing: 16 MB. Past it reading ends with an error, whatever the tolerance.
+/// Largest number of points of a drawing: 16 MB. Past it reading ends with an error, whatever the tolerance.
 const MOST_POINTS: usize = 1_000_000;
 
 /// The shapes of an SVG document, flattened: metres, y up, the document's lower-left corner at the origin.

@@ -9,7 +9,7 @@ use std::io::{BufReader, BufWriter, Cursor, ErrorKind, Read, Seek, Write};
 use std::path::Path;
 use unripple_core::Drive;
 
-/// Most bytes of samples: the format counts them, and its header, in 32 bits.
+/// Largest number of bytes of samples: the format counts them, and its header, in 32 bits.
 const MOST_BYTES: u64 = u32::MAX as u64 - 1024;
 
 /// The content of a WAV file: channels of equal length, at a rate.

@@ -4,10 +4,11 @@ use crate::{Progress, TaskError, go_on};
 use unripple::core::{Point, SampledResponses};
 use unripple_store::{Library, PointState, Quality, Take};
 
-/// Most points computed and stored at once: some megabytes, and a fraction of a second.
+/// Largest number of points computed and stored at once: some megabytes, and a fraction of a second.
 const BATCH: usize = 64;
 
-/// Most samples computed and stored at once, half a GiB of them: fewer points of long responses. Doubled, twice the memory.
+/// Largest number of samples computed and stored at once, half a GiB of them: fewer points of long responses. With twice this value, it
+/// takes twice the memory.
 const MOST_SAMPLES: usize = 1 << 27;
 
 /// Computes and stores the responses of the library's missing points; those of `dead` actuators are zero. A library that was filled in part

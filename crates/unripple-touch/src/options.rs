@@ -14,7 +14,7 @@ pub struct Options {
     /// Time-out of a finger, in s: without a message for that long it is lifted. TUIO trackers repeat a resting
     /// finger once a second.
     pub timeout: f64,
-    /// Most fingers at once. Further ones are counted and dropped, unless their sender has at least two fingers fewer
+    /// Largest number of fingers at once. Further ones are counted and dropped, unless their sender has at least two fingers fewer
     /// than the sender with the most, whose latest finger is then lifted instead.
     pub most: usize,
     /// Fingers at once from one sender, so that no sender takes the place of all others.

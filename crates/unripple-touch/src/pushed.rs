@@ -14,7 +14,7 @@ const MOST_WAITING: usize = 1 << 16;
 /// Fingers that may be down at once: as many as [`Sources`](crate::Sources) follow.
 const MOST_DOWN: usize = 128;
 
-/// Most touches that are reported in one poll, so that a poll does bounded work.
+/// Largest number of touches that are reported in one poll, so that a poll does bounded work.
 const MOST: usize = 1024;
 
 /// Makes a source of touches that a program pushes onto a surface, and the handle that pushes them.

@@ -7,7 +7,7 @@ use unripple_core::{OutOfRange, Outline, Phase, Point, Random, Touch, require};
 /// Places looked at to find one on the surface. On a sheet that fills a hundredth of its bounding box one is still
 /// found, but for one time in 20 000.
 const TRIALS: usize = 1000;
-/// Most steps of all fingers in one poll, so that a poll does bounded work.
+/// Largest number of steps of all fingers in one poll, so that a poll does bounded work.
 const STEPS: usize = 256;
 /// Shortest and longest tap, slide, and pause between two of them, in s. Each is drawn uniformly in its range; the
 /// ranges are typical of people.

@@ -25,7 +25,7 @@ const DEEPEST: u32 = 60;
 /// errs by a thousandth. Halved, curves that nearly touch take about one more halving.
 const BLUR: f64 = 1e-3;
 /// Largest number of pairs of pieces that are compared: with the two limits below, about a second. Outlines that need more have
-/// sides that lie along each other. Doubled, such outlines would be refused after twice the time.
+/// sides that lie along each other. With twice this value, such outlines would be refused after twice the time.
 const MOST_PAIRS: u64 = 5_000_000;
 /// Largest number of times that pieces are halved, for the same bound on time.
 const MOST_HALVINGS: u64 = 4_000_000;

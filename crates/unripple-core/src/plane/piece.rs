@@ -6,7 +6,7 @@ use crate::side::gauss;
 use crate::{Point, Side};
 use std::f64::consts::PI;
 
-/// Greatest turn of the tangent along a piece, in radians: a circle has 63 pieces. Doubled, there would be half as
+/// Greatest turn of the tangent along a piece, in radians: a circle has 63 pieces. With twice this value, there would be half as
 /// many, each four times as far from its chord, and the search for meetings would halve them again where they
 /// come near each other.
 const TURN: f64 = 0.1;

@@ -2,7 +2,7 @@
 
 use crate::Point;
 
-/// Most items in a leaf: doubled, the tree has about half the nodes and each search compares more items;
+/// Largest number of items in a leaf: with twice this value, the tree has about half the nodes and each search compares more items;
 /// results stay the same.
 const LEAF: usize = 4;
 

@@ -9,7 +9,7 @@ use unripple_core::Point;
 /// Duration of the fade-out of a score's waveforms when the score is stopped, in s: short, but without a click.
 /// With twice this value, they last another 0.01 s.
 const FADE: f64 = 0.01;
-/// How long a score is kept after its last event, in s, so that events cued that far ahead can still be stopped. Doubled,
+/// How long a score is kept after its last event, in s, so that events cued that far ahead can still be stopped. With twice this value,
 /// scores that are over are kept a second longer.
 const AHEAD: f64 = 1.0;
 /// Number of waveforms of a score that can sound at once: parts 1 to 255 of its voice, part 0 being for pulses. A further

@@ -4,7 +4,7 @@ use super::lines::Lines;
 use realfft::num_complex::Complex;
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply};
 
-/// Values that are held at once while lines are summed, 32 MiB of them. Doubled, twice the memory and half
+/// Values that are held at once while lines are summed, 32 MiB of them. With twice this value, twice the memory and half
 /// the blocks, whose sums differ by rounding.
 const VALUES_AT_ONCE: usize = 1 << 22;
 

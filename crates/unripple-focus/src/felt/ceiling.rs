@@ -2,7 +2,7 @@
 
 use unripple_linalg::{Cholesky, Mat};
 
-/// Slopes below this share of the largest count as zero: above rounding. Doubled, multipliers stop a little
+/// Slopes below this share of the largest count as zero: above rounding. With twice this value, multipliers stop a little
 /// earlier.
 const LEVEL: f64 = 1e-9;
 

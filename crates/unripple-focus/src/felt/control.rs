@@ -4,7 +4,7 @@ use super::reduced::Reduced;
 use unripple_core::{Outline, Point};
 use unripple_linalg::{Mat, Scale, product};
 
-/// Points whose shape weights are computed at once. Doubled, twice the memory for them; results stay the
+/// Points whose shape weights are computed at once. With twice this value, twice the memory for them; results stay the
 /// same.
 const AT_ONCE: usize = 1024;
 

@@ -11,15 +11,15 @@ use unripple_dsp::Threshold;
 const UNFELT: f64 = 100.0;
 
 /// Frequencies looked at for the top of what is felt, evenly in the logarithm over four decades: 0.5 % apart.
-/// Doubled, the top is found twice as closely.
+/// With twice this value, the top is found twice as closely.
 const LOOKED_AT: i32 = 2000;
 
-/// Nepers by which oscillations have died out where the transform wraps around: to 1/55. Doubled, to 1/3000,
+/// Nepers by which oscillations have died out where the transform wraps around: to 1/55. With twice this value, to 1/3000,
 /// for a transform up to twice as long.
 const DIED_OUT: f64 = 4.0;
 
-/// Most samples of the transform beyond what the drive itself needs: modes that ring longer are made to decay
-/// faster. Doubled, transforms may be twice as long.
+/// Largest number of samples of the transform beyond what the drive itself needs: modes that ring longer are made to decay
+/// faster. With twice this value, transforms may be twice as long.
 const MOST_DECAY: usize = 1 << 16;
 
 /// The highest frequency, in Hz, that is felt at less than 40 dB below the best one; at most `limit`.

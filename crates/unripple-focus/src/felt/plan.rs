@@ -15,19 +15,19 @@ use std::f64::consts::{PI, TAU};
 use unripple_core::{Drive, ModalResponses, OutOfRange, Point, Responses, require, window_samples};
 use unripple_linalg::{Cholesky, Mat, MatRef, product, solve_lower};
 
-/// Most coefficients of a drive, over all actuators: their form is a square matrix, half a GiB at this size.
-/// Doubled, four times the memory and eight times the time.
+/// Largest number of coefficients of a drive, over all actuators: their form is a square matrix, half a GiB at this size.
+/// With twice this value, it takes four times the memory and eight times the time.
 const MOST_COEFFICIENTS: usize = 8000;
 
-/// Most values of a plan, up to a GiB of them. Doubled, a plan may take twice that.
+/// Largest number of values of a plan, up to a GiB of them. With twice this value, a plan may take twice that.
 const MOST_VALUES: usize = 1 << 27;
 
 /// Modes below this multiple of the highest frequency felt are computed one by one, all others as static flexibility.
-/// Doubled, more modes are computed for motion that the flexibility gives already.
+/// With twice this value, more modes are computed for motion that the flexibility gives already.
 const HEARD: f64 = 2.0;
 
 /// Likewise for the search for the worst spot, where fewer modes are taken for speed: the error is within the tolerance
-/// of that search. Doubled, more modes are taken, for memory in proportion.
+/// of that search. With twice this value, more modes are taken, for memory in proportion.
 const WATCHED: f64 = 0.8;
 
 /// A shape weight below this share of the largest is rounding error, not motion. Larger, targets close to a

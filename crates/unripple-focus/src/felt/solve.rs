@@ -11,7 +11,7 @@ use unripple_linalg::{Mat, MatRef, solve_upper_alone};
 /// finds what is left.
 const SLACK: f64 = 0.03;
 
-/// Rounds of looking for spots above the ceiling; some five are enough. Doubled, what does not converge takes
+/// Rounds of looking for spots above the ceiling; some five are enough. With twice this value, what does not converge takes
 /// twice as long.
 const ROUNDS: usize = 40;
 

@@ -5,11 +5,11 @@ use super::control::Control;
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, solve_lower};
 
 /// Of neighbouring maxima of one sign, only the largest is taken at once: within this many periods of the top
-/// of what is felt, and this many points of the coarse lattice. Doubled, fewer bounds at once and more
+/// of what is felt, and this many points of the coarse lattice. With twice this value, fewer bounds at once and more
 /// rounds.
 const APART: [f64; 2] = [0.85, 1.5];
 
-/// Most maxima that are taken at once: each is a row of the dual problem. Doubled, rounds are fewer and
+/// Most maxima that are taken at once: each is a row of the dual problem. With twice this value, rounds are fewer and
 /// problems larger.
 const AT_ONCE: usize = 24;
 

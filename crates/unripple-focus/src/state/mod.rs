@@ -19,7 +19,7 @@ use unripple_linalg::{Mat, MatRef, product, symmetric};
 /// energy: rounding of the Gram matrix. Larger, weak directions that can be driven would be lost.
 const FAINT: f64 = 1e-13;
 
-/// Most coordinates of a state: decompositions take the cube of it. Doubled, four times the memory and eight
+/// Largest number of coordinates of a state: decompositions take the cube of it. With twice this value, four times the memory and eight
 /// times the time.
 const MOST_COORDINATES: usize = 4000;
 

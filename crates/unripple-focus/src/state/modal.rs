@@ -6,7 +6,7 @@ use unripple_core::{ModalResponses, Point, Pole};
 use unripple_dsp::ModalSynth;
 use unripple_linalg::{Accum, Mat, Par, multiply, product};
 
-/// Cells per shortest wavelength along each side, where velocity is kept low. Doubled, there are four times
+/// Cells per shortest wavelength along each side, where velocity is kept low. With twice this value, there are four times
 /// the cells, and their mean stays the same.
 const CELLS: f64 = 6.0;
 

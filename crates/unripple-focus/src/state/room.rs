@@ -2,7 +2,7 @@
 
 use crate::FocusError;
 
-/// Most values of such a table, 2 GiB of them. With twice as many, windows may be twice as long.
+/// Largest number of values of such a table, 2 GiB of them. With twice as many, windows may be twice as long.
 const MOST_VALUES: usize = 1 << 28;
 
 /// Refuses a table of too many values before it is allocated; `what` names the product of its rows and columns.

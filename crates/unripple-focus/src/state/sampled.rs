@@ -5,7 +5,7 @@ use crate::recording::{SampledRecorder, locate};
 use unripple_core::{Point, SampledResponses};
 use unripple_linalg::{Mat, MatRef, product};
 
-/// Most values of responses that are held at once, a GiB of them. Doubled, libraries of twice the size take
+/// Largest number of values of responses that are held at once, a GiB of them. With twice this value, libraries of twice the size take
 /// twice the memory.
 const MOST_VALUES: usize = 1 << 27;
 

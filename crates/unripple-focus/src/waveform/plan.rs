@@ -8,22 +8,22 @@ use std::ops::Range;
 use unripple_core::{Responses, require, window_samples};
 use unripple_dsp::Convolver;
 
-/// Decay, in nepers, after which what wraps round the transform no longer matters: to 1/10 000. Doubled,
+/// Decay, in nepers, after which what wraps round the transform no longer matters: to 1/10 000. With twice this value,
 /// transforms are longer by as much.
 const FORGOTTEN: f64 = 9.2;
 
-/// Most values of a transfer function, 2 GiB of them: lines x points x actuators. Doubled, problems of twice
+/// Largest number of values of a transfer function, 2 GiB of them: lines x points x actuators. With twice this value, problems of twice
 /// the size.
 const MOST_VALUES: usize = 1 << 27;
 
-/// Most samples of the transform, or of a stroke: 349 s at 48 kHz. Doubled, drives of twice the length.
+/// Largest number of samples of the transform, or of a stroke: 349 s at 48 kHz. With twice this value, drives may be twice as long.
 pub(crate) const MOST_SAMPLES: usize = 1 << 24;
 
-/// Periods of the highest frequency over which a drive rises at its start and falls at its end. Doubled,
+/// Periods of the highest frequency over which a drive rises at its start and falls at its end. With twice this value,
 /// edges make less that lies outside the band, and drives follow later.
 const EDGE: f64 = 8.0;
 
-/// Share of the band over which it fades out at its top. Doubled, less of the band is followed, and waveforms
+/// Share of the band over which it fades out at its top. With twice this value, less of the band is followed, and waveforms
 /// ring less at its edge.
 const FADE: f64 = 0.1;
 

@@ -4,10 +4,10 @@ use crate::FocusError;
 use std::f64::consts::{PI, TAU};
 use unripple_core::require;
 
-/// Most samples of a waveform that is made here: 208 s at 48 kHz. Doubled, twice as long.
+/// Largest number of samples of a waveform that is made here: 208 s at 48 kHz. With twice this value, it lasts twice as long.
 const MOST_SAMPLES: f64 = 1e7;
 
-/// Zero crossings of the interpolating kernel on each side. Doubled, the transition at half the rate is half
+/// Zero crossings of the interpolating kernel on each side. With twice this value, the transition at half the rate is half
 /// as wide, for twice the multiplications.
 const REACH: f64 = 32.0;
 

@@ -10,11 +10,11 @@ use unripple_core::{ModalResponses, Point, Pole, Responses, SampledResponses};
 use unripple_dsp::{Complex, integral};
 use unripple_linalg::{Mat, product};
 
-/// Modes times lines of the block that is summed at once, 16 MiB. Doubled, twice the memory; sums differ by
+/// Modes times lines of the block that is summed at once, 16 MiB. With twice this value, twice the memory; sums differ by
 /// rounding.
 const AT_ONCE: usize = 1 << 20;
 
-/// Width of the band over that of the moving average which gives the mean response g(f). Doubled, the error's weight
+/// Width of the band over that of the moving average which gives the mean response g(f). With twice this value, the error's weight
 /// follows single resonances more closely.
 const SMOOTH: usize = 30;
 

@@ -20,7 +20,7 @@ const WINDOWS: [f64; 8] = [0.005, 0.0075, 0.0125, 0.020, 0.030, 0.050, 0.085, 0.
 const BANDS: [f64; 7] = [0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
 /// Noise over response simulated, as ratios of rms.
 const NOISES: [f64; 7] = [0.03, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2];
-/// Most groups that placements are divided into to find how sure their mean is. Fewer would leave their spread
+/// Largest number of groups that placements are divided into to find how sure their mean is. Fewer would leave their spread
 /// uncertain, more make groups of too few placements.
 const GROUPS: usize = 10;
 /// Pieces of a smooth curve: more cannot be seen at the width of a column.

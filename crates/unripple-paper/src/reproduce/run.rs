@@ -9,7 +9,7 @@ use unripple_tasks::{Progress, TaskError, figures, folder, go_on};
 /// Fewest placements whose mean has a standard error.
 const FEWEST: usize = 2;
 
-/// Most placements: their standard errors are 22 times below those of the default. Twice as many take hours more.
+/// Largest number of placements: their standard errors are 22 times below those of the default. Twice as many take hours more.
 const MOST: usize = 10_000;
 
 /// Computes the paper's figures, table and numbers again, and writes them as one page if a folder is given.

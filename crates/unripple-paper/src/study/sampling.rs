@@ -6,7 +6,7 @@ use unripple_core::{Outline, Point};
 /// Pieces into which a round edge is cut to place actuators along it, half a degree of a circle each.
 const RIM_STEPS: usize = 720;
 
-/// Most draws of a place; after these one that does not meet all conditions is used.
+/// Largest number of draws of a place; after these one that does not meet all conditions is used.
 const TRIES: usize = 1000;
 
 /// A random sample of placements: actuators near the edge and targets inside, from a seed.

@@ -4,14 +4,14 @@ use unripple_dsp::kaiser;
 use unripple_linalg::{Cholesky, Lu, Mat};
 
 /// Number of samples on each side that a derivative is computed from; with [`BETA`] its error is 1e-4 up to 0.42 of the
-/// rate. Doubled, this holds up to about 0.46, and twice as many samples at each end need taps of their own.
+/// rate. With twice this value, this holds up to about 0.46, and twice as many samples at each end need taps of their own.
 const HALF: usize = 32;
-/// Shape of the Kaiser window over these samples: side lobes below -110 dB. Doubled, the band of that accuracy
+/// Shape of the Kaiser window over these samples: side lobes below -110 dB. With twice this value, the band of that accuracy
 /// shrinks.
 const BETA: f64 = 12.0;
 
 /// Weight of the power of the taps (their response outside the band) against the error inside: it keeps taps near an end
-/// small, and costs an error of 3e-4 at the very end of a signal that reaches a tenth of the rate. Doubled, taps are a
+/// small, and costs an error of 3e-4 at the very end of a signal that reaches a tenth of the rate. With twice this value, taps are a
 /// little smaller and errors larger.
 const OUTSIDE: f64 = 1e-9;
 

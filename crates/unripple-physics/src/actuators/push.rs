@@ -6,7 +6,7 @@ use unripple_dsp::Convolver;
 use unripple_linalg::c64;
 
 /// Logarithm of the ratio by which signals are damped over their length before they are transformed. What a response longer than twice the
-/// signal wraps round to is below e^-18 of it, and rounding grows by e^9. Doubled, rounding errors would grow to 1e-8.
+/// signal wraps round to is below e^-18 of it, and rounding grows by e^9. With twice this value, rounding errors would grow to 1e-8.
 const DAMPED: f64 = 9.0;
 
 impl Transducer {

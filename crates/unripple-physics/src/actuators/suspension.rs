@@ -2,11 +2,11 @@
 
 use crate::{Circuit, Housing};
 
-/// Terms of the series of an exponential whose argument has a norm of at most 1/2: the next is below 1e-18. Doubled, sums stay the
-/// same.
+/// Terms of the series of an exponential whose argument has a norm of at most 1/2: the next is below 1e-18. With twice this value, sums
+/// stay the same.
 const TERMS: u32 = 16;
 
-/// Most halvings of that argument: 2^64 times 1/2 is beyond all rates that a surface file can describe.
+/// Largest number of halvings of that argument: 2^64 times 1/2 is beyond all rates that a surface file can describe.
 const HALVINGS: f64 = 64.0;
 
 /// Number of coordinates: of the spring, the housing and the current, then the velocity of the sheet and its change over a sample.

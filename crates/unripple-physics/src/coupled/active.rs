@@ -6,7 +6,7 @@ use super::span::Span;
 use unripple_linalg::{Mat, MatRef, product};
 
 /// Number of times that the loads' combinations of high modes are divided by their squared frequencies: each adds a
-/// fourth power of (ω/ω_m) to the order. Doubled, twice as many coordinates are kept.
+/// fourth power of (ω/ω_m) to the order. With twice this value, twice as many coordinates are kept.
 const DEPTH: usize = 4;
 
 /// A combination is left out if less than this share of it is linearly independent of the others: the rest would be

@@ -5,7 +5,7 @@ use crate::{Load, PhysicsError};
 use unripple_linalg::{Mat, product, singular};
 
 /// Frequency given to rigid-body motion, as a share of the highest frequency, so that displacement follows from the state: far
-/// below anything that is heard or felt. Doubled, rigid bodies oscillate at twice that frequency.
+/// below anything that is heard or felt. With twice this value, rigid bodies oscillate at twice that frequency.
 const RIGID: f64 = 1e-8;
 
 /// Undamped modes of the sheet with the masses and springs of its loads: q = Ψz, z̈ + C ż + Λz = Ψᵀ(force), where the damping C may

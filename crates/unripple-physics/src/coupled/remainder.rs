@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use unripple_dsp::bessel_j;
 use unripple_plates::gauss;
 
-/// Largest distance from a load at which its deflection is tabulated, in 1/K; farther away it counts as zero. Doubled, tables
-/// are twice as long for values that are smaller still.
+/// Largest distance from a load at which its deflection is tabulated, in 1/K; farther away it counts as zero. With twice this value,
+/// tables are twice as long for values that are smaller still.
 const REACH: f64 = 25.0;
-/// Step of the table, in 1/K: 126 steps for each wavelength, with cubic interpolation between them. Doubled, the
+/// Step of the table, in 1/K: 126 steps for each wavelength, with cubic interpolation between them. With twice this value, the
 /// interpolation errs 16 times as much.
 const STEP: f64 = 0.05;
 

@@ -7,7 +7,7 @@ use unripple_core::{FOCAL_RADIUS, Outline, Shape, Surface};
 use unripple_plates::decay_rate;
 
 /// Number of intervals that a band is divided into, evenly in wavenumber, for integrals over the band.
-/// Doubled, the midpoint rule errs a quarter as much.
+/// With twice this value, the midpoint rule errs a quarter as much.
 const BINS: usize = 400;
 
 /// Statistical contrast of a surface as a reverberant cavity, from its modal density and decay time at each frequency.

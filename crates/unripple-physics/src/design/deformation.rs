@@ -8,7 +8,7 @@ use unripple_core::{Sheet, Surface};
 /// rows of the table.
 const AMPLITUDES: [f64; 3] = [10e-6, 40e-6, 200e-6];
 
-/// Relative change of tension that counts as the limit of linear theory: frequencies then shift by 5 %. Doubled, the limit
+/// Relative change of tension that counts as the limit of linear theory: frequencies then shift by 5 %. With twice this value, the limit
 /// of displacement grows by √2.
 pub(super) const TENSION_CHANGE: f64 = 0.1;
 

@@ -8,7 +8,7 @@ use unripple_dsp::bessel_j;
 use unripple_linalg::c64;
 
 /// Modes on either side over which the mean gain of actuators is taken, so that it is that of a frequency and not of a mode's own nodes.
-/// Doubled, it would blur the bottom of the band, where gains near a rim change from mode to mode.
+/// With twice this value, it would blur the bottom of the band, where gains near a rim change from mode to mode.
 const NEIGHBOURS: usize = 8;
 
 /// Steps of the integral over the focal disc. Doubled, Simpson's rule errs a sixteenth as much.

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use unripple_core::{Edge, Surface};
 use unripple_linalg::c64;
 
-/// Angles of incidence over which the term of the rim is averaged, by the midpoint rule. Doubled, it errs a quarter as much; with 64 it is
-/// right to 1e-4 of itself.
+/// Angles of incidence over which the term of the rim is averaged, by the midpoint rule. With twice this value, it errs a quarter as much;
+/// with 64 it is right to 1e-4 of itself.
 const ANGLES: usize = 64;
 
 /// Relative step of the derivative of the count by the wavenumber. Larger, curvature would enter; smaller, rounding.

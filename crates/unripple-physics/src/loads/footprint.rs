@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Outline, Point, Shapes};
 
-/// Number of radii in the quadrature over a disc: Gauss points in r². Doubled, it would be exact to degree 19, for
+/// Number of radii in the quadrature over a disc: Gauss points in r². With twice this value, it would be exact to degree 19, for
 /// twice the points.
 const RADII: usize = 5;
-/// Number of points on each radius, staggered from one radius to the next. Doubled, there are twice the points, exact for
+/// Number of points on each radius, staggered from one radius to the next. With twice this value, there are twice the points, exact for
 /// shorter waves.
 const DIRECTIONS: usize = 16;
 
@@ -16,11 +16,11 @@ const RINGS: usize = 9;
 /// Number of points on each ring: enough for an exact mean around it for waves up to about k·radius = 8.
 const RAYS: usize = 24;
 
-/// Number of Gauss points along a side of a rectangle. Doubled, waves half as long are integrated as exactly.
+/// Number of Gauss points along a side of a rectangle. With twice this value, waves half as long are integrated as exactly.
 const ACROSS: usize = 10;
 
-/// Most values of shapes that are read at once, a GiB of them. Doubled, twice the memory, and fewer evaluations for thousands of
-/// footprints; results stay the same but for rounding.
+/// Largest number of values of shapes that are read at once, a GiB of them. With twice this value, twice the memory, and fewer evaluations
+/// for thousands of footprints; results stay the same but for rounding.
 const AT_ONCE: usize = 1 << 27;
 
 /// A contact area on the sheet as quadrature points with weights. A force F over it excites mode m with the modal force

@@ -9,7 +9,7 @@ use unripple_core::{Contact, Outline, require};
 use unripple_linalg::c64;
 
 /// For R/L from this on, in 1/s, a coil's inductance is neglected, so that its current follows its voltage at once; at 3 kHz
-/// this is a relative error of 2e-5 of the coil's force. Doubled, the error is half as large.
+/// this is a relative error of 2e-5 of the coil's force. With twice this value, the error is half as large.
 const AT_ONCE: f64 = 1e9;
 
 /// A lumped load on the sheet at one contact: a mass that moves with it, a damper and a spring to the ground, and optionally a coil and

@@ -8,7 +8,7 @@ use super::small::{OCT, add};
 use pulp::{Simd, WithSimd};
 
 /// Number of samples between checks for values that have become too small: 21 ms at 48 kHz, so that the check costs
-/// little. Doubled, denormal numbers that slow the processor stay up to twice as long.
+/// little. With twice this value, denormal numbers that slow the processor stay up to twice as long.
 const SILENCE: u64 = 1024;
 
 /// The inputs and outputs of a number of samples: planes of channels or probes, `stride` apart, from a first sample on.

@@ -3,7 +3,7 @@
 use pulp::Simd;
 use std::ops::Range;
 
-/// Number of ports processed together: a 512-bit register holds as many f64. Doubled, more empty ports are
+/// Number of ports processed together: a 512-bit register holds as many f64. With twice this value, more empty ports are
 /// processed.
 pub(super) const OCT: usize = 8;
 
@@ -103,7 +103,7 @@ impl Small {
 }
 
 /// Above this trace of `D A D`, systems are solved by Cholesky factors rather than by their inverse, whose rounding errors
-/// would be too large: at 1e5, eleven digits are left. Doubled, stiffer loads are solved by the inverse, with a third of a
+/// would be too large: at 1e5, eleven digits are left. With twice this value, stiffer loads are solved by the inverse, with a third of a
 /// digit less.
 const STIFF: f64 = 1e5;
 

@@ -2,7 +2,7 @@
 
 use unripple_core::{Edge, Point, Side};
 
-/// Largest turn of a curve, in radians, that is integrated along without being cut. Doubled, quadrature rules apply to
+/// Largest turn of a curve, in radians, that is integrated along without being cut. With twice this value, quadrature rules apply to
 /// curves that turn by up to 1.6 rad, and converge more slowly.
 const TURN: f64 = 0.8;
 

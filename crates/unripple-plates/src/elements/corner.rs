@@ -14,7 +14,7 @@ use crate::mesh::Mesh;
 use unripple_core::Edge;
 
 /// A condition counts as linearly dependent on the others if a smaller share of it than this is independent: between
-/// rounding errors and the angles at which sides meet. Doubled, conditions that differ by 2e-6 would count as one.
+/// rounding errors and the angles at which sides meet. With twice this value, conditions that differ by 2e-6 would count as one.
 const RANK: f64 = 1e-6;
 
 /// Sides that meet at an angle this near to a straight one, in radians, count as one smooth curve. Otherwise a kink by rounded

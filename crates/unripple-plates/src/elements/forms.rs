@@ -14,10 +14,10 @@ use unripple_core::Edge;
 use unripple_linalg::sparse::SparseColMat;
 
 /// Number of triangles whose matrices all threads compute before one thread adds them up in order, so that sums do not
-/// depend on the number of threads. Doubled, twice as many matrices are held at once.
+/// depend on the number of threads. With twice this value, twice as many matrices are held at once.
 const BATCH: usize = 512;
 
-/// Number of unknowns processed at once: a 512-bit register holds as many f64. Doubled, sums stay the same.
+/// Number of unknowns processed at once: a 512-bit register holds as many f64. With twice this value, sums stay the same.
 const LANES: usize = 8;
 
 /// The symmetric matrices of a sheet on a space's unknowns, all with the same pattern, both triangles of it.

@@ -5,11 +5,11 @@ use crate::mesh::Mesh;
 use unripple_core::{Point, Side};
 
 /// A point up to this far outside, in units of a triangle's size, counts as on its edge: some million times the rounding error.
-/// Doubled, points twice as far outside keep their own place instead of the nearest point of the rim.
+/// With twice this value, points twice as far outside keep their own place instead of the nearest point of the rim.
 const ON: f64 = 1e-9;
 
 /// Number of points of a curve from which a bounding box is computed; the box is widened by its chord over twice this number.
-/// Doubled, boxes of curved triangles are tighter.
+/// With twice this value, boxes of curved triangles are tighter.
 const STEPS: usize = 8;
 
 /// A regular grid of cells, each with the triangles whose bounding boxes meet it, and the rims with their triangles.

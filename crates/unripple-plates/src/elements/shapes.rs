@@ -6,11 +6,11 @@ use rayon::prelude::*;
 use unripple_core::{Point, Shapes};
 use unripple_linalg::{Mat, MatRef};
 
-/// Number of modes summed at once: two cache lines of a row of coefficients. Doubled, more zeros are added to fill the
+/// Number of modes summed at once: two cache lines of a row of coefficients. With twice this value, more zeros are added to fill the
 /// last lanes.
 const LANES: usize = 16;
 
-/// Number of points whose shapes one thread computes at a time. Doubled, there are half as many tasks to share
+/// Number of points whose shapes one thread computes at a time. With twice this value, there are half as many tasks to share
 /// among threads.
 const POINTS: usize = 64;
 

@@ -22,7 +22,7 @@ const WIDE: f64 = 0.8;
 const BETWEEN: f64 = 0.4;
 /// Largest number of rounds of filling, each after a new triangulation; it ends when a round finds no room.
 const FILLS: usize = 3;
-/// Rounds of smoothing, each followed by a new triangulation. Doubled, meshes take longer and triangles change little.
+/// Rounds of smoothing, each followed by a new triangulation. With twice this value, meshes take longer and triangles change little.
 const ROUNDS: usize = 4;
 /// Number of times that rims are cut, each time twice as fine on curves and in narrow places, before meshing is
 /// given up.

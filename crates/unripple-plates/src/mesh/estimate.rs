@@ -16,7 +16,7 @@ const DEEPEST: u32 = 60;
 /// Number of vertices up to which an estimate integrates the density of vertices; for more, a rough sum is used, so that an
 /// estimate takes little time.
 const COUNTED: f64 = 1e6;
-/// Largest number of vertices of a mesh: more would not fit into the memory allowed for modes. Doubled, such a mesh
+/// Largest number of vertices of a mesh: more would not fit into the memory allowed for modes. With twice this value, such a mesh
 /// is refused after the estimate rather than at once.
 const MOST: f64 = 1e7;
 

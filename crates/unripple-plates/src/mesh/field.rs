@@ -23,7 +23,7 @@ pub(super) struct Field {
 }
 
 /// Growth of the edge length per distance: along a line away from a source each edge is e^0.65 = 1.9 times as long as the one
-/// before. Doubled, meshes have fewer triangles, of worse shape.
+/// before. With twice this value, meshes have fewer triangles, of worse shape.
 pub(super) const GROWTH: f64 = 0.65;
 /// Sources of more than this share of the common length are ignored: they would cost a search at every place for edges at
 /// most 15 % shorter.

@@ -7,7 +7,7 @@ use unripple_core::Point;
 use unripple_core::plane::{along, middle, minus, norm, sharpness, turned};
 
 /// Cotangent of the least angle (34°) from which triangles count as well shaped, so that their least angle may become smaller
-/// in favour of their neighbours. Doubled, angles down to 19° would be left alone.
+/// in favour of their neighbours. With twice this value, angles down to 19° would be left alone.
 const FAIR: f64 = 1.46;
 
 /// The triangles around each vertex.

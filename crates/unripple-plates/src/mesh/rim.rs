@@ -9,10 +9,10 @@ use unripple_core::{Edge, Point};
 
 /// Greatest turn of a rim edge, in radians: a small hole gets at least 14 edges. Doubled, 7.
 const TURN: f64 = 0.45;
-/// Greatest length of a rim edge as a share of the width of the sheet there. Doubled, edges would be longer than narrow
+/// Greatest length of a rim edge as a share of the width of the sheet there. With twice this value, edges would be longer than narrow
 /// places are wide.
 const GAP: f64 = 0.7;
-/// Number of samples of the desired edge length per edge when a side is cut. Doubled, cutting takes twice as long.
+/// Number of samples of the desired edge length per edge when a side is cut. With twice this value, cutting takes twice as long.
 const STEPS: f64 = 6.0;
 /// Shortest edge length, as a share of the extent: above the resolution of coordinates.
 const SHORTEST: f64 = 1e-12;

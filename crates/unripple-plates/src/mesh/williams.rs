@@ -9,7 +9,7 @@ const POISSON: f64 = 0.3;
 /// Exponents this near to a whole number count as whole: the solution is a polynomial, which elements represent
 /// exactly. Above the error of Newton's method, 1e-9.
 const WHOLE: f64 = 1e-5;
-/// Spacing of the starting points of Newton's method, along the real and the imaginary axis. Doubled, two neighbours may
+/// Spacing of the starting points of Newton's method, along the real and the imaginary axis. With twice this value, two neighbours may
 /// converge to the same root and miss one between.
 const STEP: [f64; 2] = [0.1, 0.4];
 /// Number of starting points along the imaginary axis, up to 1.2. More find roots that oscillate faster.

@@ -5,8 +5,8 @@ use crate::{Medium, PhysicsError};
 use std::f64::consts::TAU;
 use unripple_core::{Decay, Surface, require};
 
-/// Largest wavenumber at the top frequency, in rad/m: waves of 6 nm, shorter than the grains and molecules of any sheet. Doubled,
-/// numbers of modes still fit in a word.
+/// Largest wavenumber at the top frequency, in rad/m: waves of 6 nm, shorter than the grains and molecules of any sheet. With twice this
+/// value, numbers of modes still fit in a word.
 const LARGEST_WAVENUMBER: f64 = 1e9;
 
 /// The request for the modes of a sheet: up to what frequency, and how accurately.

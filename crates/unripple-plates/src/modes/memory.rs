@@ -1,6 +1,6 @@
 //! The memory that a solution for modes may take.
 
-/// Memory that a solution may take, in bytes. Doubled, top frequencies may be about 1.4 times as high before
+/// Memory that a solution may take, in bytes. With twice this value, top frequencies may be about 1.4 times as high before
 /// they are refused.
 pub(super) const MEMORY: f64 = 4.0 * GIB;
 /// Bytes of a GiB, 2³⁰ by definition.

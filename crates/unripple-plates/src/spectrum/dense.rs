@@ -9,7 +9,7 @@ use crate::modes::eigen::{Method, product, symmetric};
 use unripple_linalg::{Cholesky, Mat, Par, Scale, norm, solve_lower_alone, solve_upper_alone};
 
 /// The shift τ below zero, as a share of the bound: K may be singular, K + τM is not. Rounding errors are relative to
-/// λ + τ: doubled, they double for the lowest λ; much smaller, K + τM is nearly singular.
+/// λ + τ: with twice this value, they double for the lowest λ; much smaller, K + τM is nearly singular.
 const SHIFT: f64 = 1e-3;
 
 /// All eigenpairs below a bound, or below one slightly above it if factors are more accurate there.

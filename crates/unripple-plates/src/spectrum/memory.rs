@@ -2,10 +2,10 @@
 
 use super::plan::{KEPT, SHARE};
 
-/// Approximate number of entries in each row of the matrices, for quintic elements on a surface. Doubled, small problems
+/// Approximate number of entries in each row of the matrices, for quintic elements on a surface. With twice this value, small problems
 /// would be estimated twice as large.
 const ROW: f64 = 45.0;
-/// Number of vectors of a Lanczos basis for a full share of 160 eigenpairs. Doubled,
+/// Number of vectors of a Lanczos basis for a full share of 160 eigenpairs. With twice this value,
 /// problems that fit would be refused.
 const BASIS: f64 = 300.0;
 

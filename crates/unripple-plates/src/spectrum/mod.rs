@@ -31,14 +31,14 @@ use unripple_linalg::Mat;
 use unripple_linalg::sparse::SparseColMatRef;
 
 /// Relative step by which a shift is moved if it meets an eigenvalue of the pencil or of a leading part of it: some ten
-/// thousand rounding errors. Doubled, a count may include eigenvalues up to 1.4e-10 above the bound.
+/// thousand rounding errors. With twice this value, a count may include eigenvalues up to 1.4e-10 above the bound.
 #[cfg(test)]
 const NUDGE: f64 = 1e-11;
-/// Number of unknowns up to which dense matrices are used. Doubled, this includes meshes of up to 640, in up to eight
+/// Number of unknowns up to which dense matrices are used. With twice this value, this includes meshes of up to 640, in up to eight
 /// times the time that 320 take.
 const SMALL: usize = 320;
 /// Number of unknowns up to which dense matrices are used if Lanczos iteration misses eigenvectors of a multiple eigenvalue.
-/// Doubled, such a solution takes up to eight times as long.
+/// With twice this value, such a solution takes up to eight times as long.
 const MEDIUM: usize = 1500;
 
 /// Eigenpairs of K x = λ M x.

@@ -2,7 +2,7 @@
 
 use pulp::{Arch, NullaryFnOnce};
 
-/// Number of vectors of a panel: a 512-bit register holds as many f64. Doubled, a matrix is read half as often, and bases
+/// Number of vectors of a panel: a 512-bit register holds as many f64. With twice this value, a matrix is read half as often, and bases
 /// grow in coarser steps than needed.
 pub(super) const LANES: usize = 8;
 
@@ -18,11 +18,11 @@ pub(super) type Square = [Row; LANES];
 /// A row of zeros, where sums start.
 pub(super) const NONE: Row = [0.0; LANES];
 
-/// Number of rows of a panel that stay in the first-level cache: 8 KiB of each of two panels. Doubled, results
+/// Number of rows of a panel that stay in the first-level cache: 8 KiB of each of two panels. With twice this value, results
 /// stay the same except for rounding.
 const CHUNK: usize = 128;
 
-/// Number of rows processed at once, so that their sums stay in registers: eight of AVX2's sixteen. Doubled,
+/// Number of rows processed at once, so that their sums stay in registers: eight of AVX2's sixteen. With twice this value,
 /// they would take all.
 pub(super) const TILE: usize = 4;
 

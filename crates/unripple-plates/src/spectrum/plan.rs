@@ -7,23 +7,23 @@ use rayon::prelude::*;
 use unripple_core::Observed;
 use unripple_linalg::Par;
 
-/// Approximate number of eigenpairs computed at each shift. Doubled, there are half as many factorisations, and bases of
+/// Approximate number of eigenpairs computed at each shift. With twice this value, there are half as many factorisations, and bases of
 /// about twice as many vectors, each of which is made orthogonal to all before.
 pub(super) const SHARE: usize = 160;
 /// Growth of the factors, per eigenvalue below the shift, above which another shift is tried.
 const GROWTH: f64 = 16.0;
 /// Number of shifts tried, each a little above the one before; the one of least growth is taken if none passes.
 const TRIES: usize = 6;
-/// Relative step from one shift tried to the next. Doubled, shifts may be 1 % from their intended places.
+/// Relative step from one shift tried to the next. With twice this value, shifts may be 1 % from their intended places.
 pub(super) const STEP: f64 = 1e-3;
 /// Rounds of placing shifts: each replaces those too far from their intended places. More only make
 /// the shares more equal.
 const ROUNDS: usize = 4;
-/// Distance of a shift from its intended place that is accepted, as a share of the eigenpairs of each. Doubled, fewer shifts
+/// Distance of a shift from its intended place that is accepted, as a share of the eigenpairs of each. With twice this value, fewer shifts
 /// are placed again, and shares are less equal.
 const SLACK: f64 = 0.1;
 /// Memory in bytes for factors that are kept for later use, a quarter of a GiB; if they need more, they are computed
-/// again. Doubled, fewer are computed twice, for more memory.
+/// again. With twice this value, fewer are computed twice, for more memory.
 pub(super) const KEPT: usize = 1 << 28;
 
 /// A shift and the number of eigenvalues below it.

@@ -18,14 +18,14 @@ const CHECKED: f64 = 1e-8;
 /// Approximate number of steps until the first eigenpairs near a shift are found: with fewer, the small eigenvalue problem is
 /// solved too early; with more, steps are wasted.
 const START: usize = 17;
-/// Approximate number of further steps for each panel of eigenpairs. Doubled, more steps are taken than needed; halved, the
+/// Approximate number of further steps for each panel of eigenpairs. With twice this value, more steps are taken than needed; halved, the
 /// small eigenvalue problem is solved too early.
 const PACE: f64 = 1.5;
-/// Approximate number of decades by which a small residual falls with each step. Doubled, the next
+/// Approximate number of decades by which a small residual falls with each step. With twice this value, the next
 /// check comes too early; halved, too late.
 const DECADES: f64 = 0.7;
 /// Largest number of steps, as a multiple of the number expected: eigenpairs not found by then belong to an eigenvalue of higher
-/// multiplicity than the block, and are found in another way. Doubled, that is noticed later.
+/// multiplicity than the block, and are found in another way. With twice this value, that is noticed later.
 const PATIENCE: usize = 3;
 
 /// Share of the work at a shift that is told of while its basis grows. Nearer to 1, less is left for vectors and residuals.

@@ -11,16 +11,16 @@ use rayon::prelude::*;
 use unripple_core::{Observed, Steps};
 
 /// Number of eigenpairs requested from a shift beyond its share, so that clusters need not be divided.
-/// Doubled, each shift computes two more that are not needed.
+/// With twice this value, each shift computes two more that are not needed.
 const MARGIN: usize = 2;
 /// Least distance, as a share of the interval, between the eigenvalues taken from one shift and those from the next: nearer
-/// ones may be the same, and the interval gets a shift of its own. Doubled, that happens more often.
+/// ones may be the same, and the interval gets a shift of its own. With twice this value, that happens more often.
 const CLEAR: f64 = 1e-6;
 /// Rounds of search for eigenvectors of the same eigenvalue, each of as many as a panel holds: up to 320. More
 /// are an error.
 const ROUNDS: usize = 40;
 /// Number of panels on either side of a boundary that are made orthogonal to each other: those of the nearest
-/// eigenvalues, whose vectors are mixed by rounding. Doubled, vectors that are orthogonal already are compared as
+/// eigenvalues, whose vectors are mixed by rounding. With twice this value, vectors that are orthogonal already are compared as
 /// well.
 const NEIGHBOURS: usize = 3;
 

@@ -7,11 +7,11 @@ use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
-/// Lanes that spectra are grouped in: the float32 numbers of a 512-bit register. Doubled, more empty lanes
+/// Lanes that spectra are grouped in: the float32 numbers of a 512-bit register. With twice this value, more empty lanes
 /// are worked on.
 pub(crate) const LANES: usize = 16;
 
-/// Outputs that are summed up together, so that an input's spectrum is read once for all of them. Doubled,
+/// Outputs that are summed up together, so that an input's spectrum is read once for all of them. With twice this value,
 /// sums no longer fit the registers.
 pub(crate) const OUTPUTS: usize = 4;
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use unripple_dsp::{bessel_i0, sinc};
 
-/// Attenuation that the low-pass filters are made for, in dB; their ripple is as small. Doubled, filters are
+/// Attenuation that the low-pass filters are made for, in dB; their ripple is as small. With twice this value, filters are
 /// twice as long for what float32 cannot hold.
 const ATTENUATION: f64 = 100.0;
 

@@ -13,7 +13,7 @@ use crate::outlet::Outlet;
 use crate::power::WaveEnergies;
 use crate::{Count, Options, Report, Which, kernels};
 
-/// Seconds that the gain takes to rise from nothing to 1. Doubled, waveforms come back half as fast after
+/// Seconds that the gain takes to rise from nothing to 1. With twice this value, waveforms come back half as fast after
 /// drives took their room; shorter, their level follows each drive more noticeably.
 const RISE: f64 = 0.1;
 

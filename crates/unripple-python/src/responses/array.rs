@@ -20,7 +20,7 @@ const SAME: f64 = 1e-6;
 const SAME_RATE: f64 = 1e-9;
 
 /// Top of the band over the sample rate where no band is given: above half of it samples take a frequency for one as far below, and filters
-/// need some room. Doubled, that would happen.
+/// need some room. With twice this value, that would happen.
 const OF_RATE: f64 = 0.45;
 
 /// Mass per area of a sheet that is made up: thickness in metres and density in kg/m³. With its tension it gives the waves their speed; no

@@ -29,7 +29,7 @@ pub(crate) const FIGURES: usize = 2;
 const MIDDLES: &str = "middle_hz";
 /// The attribute with the checksum of [`MIDDLES`]: values without their frequencies mean nothing.
 const CHECK: &str = "crc32c";
-/// Most bands: thirds of an octave over more than twenty octaves.
+/// Largest number of bands: thirds of an octave over more than twenty octaves.
 const MOST: usize = 64;
 
 /// The array, and the centre frequencies of its bands in Hz, ascending.

@@ -12,7 +12,7 @@ const LAYOUT: u8 = 0x08;
 const GROUP_INFO: u8 = 0x0a;
 const ATTRIBUTE: u8 = 0x0c;
 
-/// Most bytes of an attribute's value: a message counts its bytes in sixteen bits. 5 535 of the 65 535 are left for
+/// Largest number of bytes of an attribute's value: a message counts its bytes in sixteen bits. 5 535 of the 65 535 are left for
 /// its name, type and shape.
 pub(super) const MOST_TEXT: usize = 60_000;
 

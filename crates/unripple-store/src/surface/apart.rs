@@ -6,7 +6,7 @@ use super::reader::Faults;
 use super::ring::place;
 use unripple_core::{Outline, OutlineFault, Shape};
 
-/// Most sides of all rims together: each is compared with those near it, and past this number nothing is compared.
+/// Largest number of sides of all rims together: each is compared with those near it, and past this number nothing is compared.
 const MOST_SIDES: usize = 16_384;
 
 /// Which holes lie on the sheet and apart from each other; there is a fault for each that does not, or for what kept all

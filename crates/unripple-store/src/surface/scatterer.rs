@@ -6,7 +6,7 @@ use super::range::of;
 use super::reader::{Faults, Section};
 use unripple_core::{Scatterer, ScattererKind};
 
-/// Most scatterers of a surface: a bound on the cost of the coupled problem that a small file can pose.
+/// Largest number of scatterers of a surface: a bound on the cost of the coupled problem that a small file can pose.
 const MOST_SCATTERERS: usize = 1024;
 
 /// Keys of the table `[[scatterer]]`: of both kinds, of a point mass, and of a glued disc.

@@ -18,7 +18,7 @@ pub struct Curve {
     pub closed: bool,
 }
 
-/// Most sides of all curves of a drawing. Past it reading ends with an error, which bounds memory.
+/// Largest number of sides of all curves of a drawing. Past it reading ends with an error, which bounds memory.
 const MOST_SIDES: usize = 1 << 16;
 /// How near a curve's handles must be to its chord for it to be a line, in metres: the accuracy of single precision.
 const STRAIGHT: f64 = 1e-8;

@@ -6,14 +6,14 @@ use usvg::roxmltree::{Document, Node, NodeId, ParsingOptions};
 
 /// Deepest nesting of elements: the reader calls itself for each level, and its stack is bounded.
 const DEEPEST: usize = 64;
-/// Most elements and other nodes, copies made by `use` included. Drawings of rims have tens; the work of conversion
+/// Largest number of elements and other nodes, copies made by `use` included. Drawings of rims have tens; the work of conversion
 /// grows with their number.
 const MOST_NODES: u32 = 20_000;
-/// Most attributes of one element, counted before anything is parsed; drawings have tens.
+/// Largest number of attributes of one element, counted before anything is parsed; drawings have tens.
 const MOST_ATTRIBUTES: usize = 200;
-/// Most bytes of style sheets: each holds rules that are tried on every element.
+/// Largest number of bytes of style sheets: each holds rules that are tried on every element.
 const MOST_STYLE: usize = 16 << 10;
-/// Most bytes of style sheets times nodes: each rule is tried on each element.
+/// Largest number of bytes of style sheets times nodes: each rule is tried on each element.
 const MOST_MATCHES: usize = 40_000_000;
 
 /// The XML of a document that is safe to convert: bounded in depth, size and copies, and without what would change

@@ -27,7 +27,7 @@ const LEAST: f64 = 23.0;
 /// its crest for three.
 const FLAT: usize = 20;
 
-/// Most repeats that are worth their time: they raise the signal-to-noise ratio by 12 dB, and the next 3 dB double
+/// Largest number of repeats that are worth their time: they raise the signal-to-noise ratio by 12 dB, and the next 3 dB double
 /// the time again.
 const REPEATS: f64 = 16.0;
 

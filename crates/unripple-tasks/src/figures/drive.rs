@@ -3,7 +3,7 @@
 use unripple::core::Drive;
 use unripple_plot::{Axis, Figure, Trace, Traces, prefixed};
 
-/// Most channels drawn in one figure: more lanes are too low to be read.
+/// Largest number of channels drawn in one figure: more lanes are too low to be read.
 const MOST: usize = 16;
 
 /// The drive, one lane per actuator; the first sixteen where there are more.

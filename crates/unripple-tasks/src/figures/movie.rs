@@ -7,10 +7,10 @@ use unripple::act;
 use unripple::field::Field;
 use unripple_plot::{ColourMap, Movie, Shot};
 
-/// Most frames of an animation: it then lasts five and a half minutes. Doubled, files are twice as large.
+/// Largest number of frames of an animation: it then lasts five and a half minutes. With twice this value, files are twice as large.
 pub const MOST_FRAMES: usize = 5000;
 
-/// Most cells of all frames together, whose values take 400 MB. Doubled, twice the memory.
+/// Largest number of cells of all frames together, whose values take 400 MB. With twice this value, it takes twice the memory.
 const MOST_CELLS: usize = 50_000_000;
 
 /// Refuses an animation of a field before that is evaluated: more frames than memory holds at its cells, or a span (s) that ends after the

@@ -4,7 +4,7 @@ use super::When;
 use unripple::field::{TargetFigures, Trace};
 use unripple_plot::{Axis, Figure, Ink, Rule, Traces, prefixed};
 
-/// Most targets whose traces are drawn: the palette has seven colours, and more lines cannot be followed.
+/// Largest number of targets whose traces are drawn: the palette has seven colours, and more lines cannot be followed.
 const MOST: usize = 8;
 
 /// Velocity and displacement of the targets against time, sampled at `rate` (Hz), with the instant of the first target as a dashed line;

@@ -10,7 +10,7 @@ use unripple::physics::sample;
 use unripple_calibrate::measure::MOST_KEPT;
 use unripple_store::{Library, LibraryPlan};
 
-/// Most samples of a response times modes: tables of them take up to 6 GiB. Doubled, twice the memory.
+/// Largest number of samples of a response times modes: tables of them take up to 6 GiB. With twice this value, it takes twice the memory.
 pub const MOST_VALUES: usize = 1 << 29;
 
 /// Computes the responses of a surface at the points of a grid, and stores them in a library. A cancelled run can be continued.

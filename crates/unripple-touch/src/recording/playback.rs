@@ -5,7 +5,7 @@ use super::session::Recording;
 use crate::{Counts, Heard, Source, TouchError};
 use unripple_core::{Outline, Phase, Touch};
 
-/// Most touches and requests that are played in one poll, so that a poll does bounded work.
+/// Largest number of touches and requests that are played in one poll, so that a poll does bounded work.
 const MOST: usize = 1024;
 
 /// A source that plays a [`Recording`]. Touches have their recorded times, counted from the first poll, at whatever

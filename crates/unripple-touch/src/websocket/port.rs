@@ -21,7 +21,7 @@ const ACCEPTED: usize = 8;
 pub struct WebSocketOptions {
     /// Pages that may connect beside those of this machine, as browsers name them: `https://lab.example:8443`.
     pub origins: Vec<String>,
-    /// Most connections at once. A further one replaces the oldest that has not completed its handshake; if there is
+    /// Largest number of connections at once. A further one replaces the oldest that has not completed its handshake; if there is
     /// none, the new one is closed.
     pub most: usize,
     /// Time after which a client that sends nothing, not even the answer to a ping, is disconnected, in s.

@@ -5,7 +5,8 @@ use crate::core::Surface;
 use crate::physics::{PhysicsError, sampled_hz};
 
 /// Multiple of the band up to which the modes go that drives are evaluated on by default. On the modes that it was computed from a
-/// drive looks better than on a sheet, which has modes above as well. Doubled, there are up to four times as many modes to compute.
+/// drive looks better than on a sheet, which has modes above as well. With twice this value, there are up to four times as many modes to
+/// compute.
 pub const JUDGED_BANDS: f64 = 2.0;
 
 /// Highest frequency (Hz) of the modes that drives are evaluated on: `bands` times the top of the surface's band, at most 0.45 of its

@@ -10,8 +10,8 @@ use serde::Serialize;
 /// Topic of the note on why levels as felt do not hold, by which a report knows that they do not.
 pub(super) const FELT: &str = "felt";
 
-/// Share of energy above what the threshold of touch was measured to, from which on levels as felt do not hold. Doubled, motion
-/// of which two fifths of the amplitude (√0.2) are too fast would pass.
+/// Share of energy above what the threshold of touch was measured to, from which on levels as felt do not hold. With twice this value,
+/// motion of which two fifths of the amplitude (√0.2) are too fast would pass.
 const FAST: f64 = 0.1;
 
 /// Share of the time over which touch adds up vibration, below which a motion is too short for levels as felt: half as long, it must be
@@ -23,7 +23,7 @@ const SHORT: f64 = 0.5;
 const LITTLE: f64 = 0.5;
 
 /// Number of a library's points outside the focal discs below which a note gives it: an rms over fewer is off by more than a
-/// tenth by chance (1/√(2n)). Doubled, by more than 7 %.
+/// tenth by chance (1/√(2n)). With twice this value, by more than 7 %.
 const FEW: usize = 50;
 
 /// A remark or warning that goes with the results.

@@ -18,7 +18,7 @@ const REST: f64 = 1e-9;
 /// Largest number of cells of a map along its longer side. A million cells bound memory, and no screen shows more.
 const MOST_ACROSS: usize = 1024;
 
-/// Most samples of a window: past it a window is taken for a mistake of unit, being minutes long at any usual rate.
+/// Largest number of samples of a window: past it a window is taken for a mistake of unit, being minutes long at any usual rate.
 const MOST_SAMPLES: usize = 20_000_000;
 
 /// Options of a map of contrast: window, cells, grid.

@@ -27,7 +27,7 @@ const CROSSED: &str =
     "in which waves cross the surface three times, the shortest in which they reach every part of it";
 
 /// The longest window that is considered, in seconds. The delay of a focus is the window, and a longer one is of no use. Where
-/// losses grow with frequency, contrast can keep growing for minutes, as the lowest modes outlast the others. Doubled,
+/// losses grow with frequency, contrast can keep growing for minutes, as the lowest modes outlast the others. With twice this value,
 /// such surfaces get longer windows.
 const LONGEST: f64 = 0.5;
 
@@ -36,7 +36,7 @@ const LONGEST: f64 = 0.5;
 const AS_GOOD: f64 = 0.995;
 
 /// Number of windows computed for each doubling: contrast changes by at most 6 % from one to the next, and is
-/// interpolated. Doubled, the curve takes twice as long.
+/// interpolated. With twice this value, the curve takes twice as long.
 const PER_DOUBLING: f64 = 6.0;
 
 /// Relative accuracy of the frequencies. The mean contrast over many targets depends on the number and statistics of the
@@ -44,7 +44,7 @@ const PER_DOUBLING: f64 = 6.0;
 const ACCURACY: f64 = 1e-3;
 
 /// Largest number of modes below the top of the band for which they are solved for. The work grows as its square, and
-/// statistics are accurate for more modes. Doubled, the largest surfaces take four times as long.
+/// statistics are accurate for more modes. With twice this value, the largest surfaces take four times as long.
 const MOST_MODES: f64 = 2000.0;
 
 /// Contrast of a time-reversed focus as a function of its window T, for the actuators of a surface.

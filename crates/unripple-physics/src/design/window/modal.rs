@@ -20,8 +20,8 @@ pub(super) struct Modal {
     within: Vec<Vec<usize>>,
 }
 
-/// Share of the targets whose contrast is below the lower end of the interval that is given, and above its upper end. Doubled, one target in five
-/// lies outside it.
+/// Share of the targets whose contrast is below the lower end of the interval that is given, and above its upper end. With twice this
+/// value, one target in five lies outside it.
 const TAIL: f64 = 0.05;
 
 /// Re a e^{st}, a part of the velocity of a mode.

@@ -3,20 +3,20 @@
 use std::f64::consts::TAU;
 use unripple_core::{Outline, Point};
 
-/// Number of targets that contrast is averaged over. Doubled, the mean varies by √2 less between similar surfaces, and takes
+/// Number of targets that contrast is averaged over. With twice this value, the mean varies by √2 less between similar surfaces, and takes
 /// longer.
 const TARGETS: usize = 96;
 
-/// Number of places tried as targets; a surface with little room away from the rim gets fewer targets. Doubled, such a
+/// Number of places tried as targets; a surface with little room away from the rim gets fewer targets. With twice this value, such a
 /// surface has up to twice as many.
 const TRIES: u32 = 4000;
 
-/// Number of directions in which a target is tested for its distance from the rim: every 22.5°. Doubled, every 11°, for
+/// Number of directions in which a target is tested for its distance from the rim: every 22.5°. With twice this value, every 11°, for
 /// twice the tests.
 const DIRECTIONS: u32 = 16;
 
 /// Number of cells of the grid along a shortest wavelength. The square of a field has half its wavelength, so that two
-/// would suffice. Doubled, there are four times the points, and the mean stays the same.
+/// would suffice. With twice this value, there are four times the points, and the mean stays the same.
 const CELLS: f64 = 3.0;
 
 /// Steps of a sequence that fills the plane evenly, without the symmetries of a grid: powers of 1/ρ with ρ³ =

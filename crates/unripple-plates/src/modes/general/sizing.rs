@@ -25,7 +25,7 @@ const FILLS: [f64; 2] = [0.3, 4.0];
 const UNKNOWNS: f64 = 9.0;
 
 /// Edge length along a clamped rim at an accuracy of 1e-3, in multiples of √(D/T), the width of the boundary layer where
-/// bending gives way to tension. Doubled, the layer is resolved half as well, and a refinement follows.
+/// bending gives way to tension. With twice this value, the layer is resolved half as well, and a refinement follows.
 const LAYER: f64 = 4.0;
 
 /// Number of places along each side of the bounding box at which the sheet's properties are sampled. Variation within a

@@ -20,7 +20,7 @@ const ROUNDS: usize = 12;
 /// rounding errors would count as progress.
 const STALLED: f64 = 0.7;
 
-/// Rounds without progress after which the accuracy counts as out of reach. Doubled, this takes two rounds more.
+/// Rounds without progress after which the accuracy counts as out of reach. With twice this value, this takes two rounds more.
 const PATIENCE: usize = 2;
 
 /// A solution of the accuracy asked for.

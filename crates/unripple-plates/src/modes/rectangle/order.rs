@@ -4,7 +4,7 @@ use super::ritz::BlockModes;
 use unripple_linalg::ColRef;
 
 /// Relative difference of ω² below which frequencies count as equal: above rounding, below any splitting that an accuracy
-/// can resolve. Doubled, pairs twice as far apart would be ordered by symmetry instead of frequency.
+/// can resolve. With twice this value, pairs twice as far apart would be ordered by symmetry instead of frequency.
 const DOUBLE: f64 = 1e-9;
 
 /// Ascending squares and the block and column of each mode; equal ones are ordered by block, then column.

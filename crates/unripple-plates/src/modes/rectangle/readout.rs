@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use unripple_core::Point;
 use unripple_linalg::{Accum, Mat, MatMut, Par, multiply};
 
-/// Number of points whose shapes one thread computes together; more are shared among threads. Doubled, there are
+/// Number of points whose shapes one thread computes together; more are shared among threads. With twice this value, there are
 /// half as many tasks.
 const POINTS: usize = 128;
 
-/// Number of modes whose coefficients are stored together: two cache lines. Doubled, more zeros are added to fill
+/// Number of modes whose coefficients are stored together: two cache lines. With twice this value, more zeros are added to fill
 /// the last lanes.
 const LANES: usize = 16;
 

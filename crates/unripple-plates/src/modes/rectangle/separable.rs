@@ -10,10 +10,10 @@ use unripple_core::{Edge, Point};
 use unripple_linalg::Mat;
 
 /// Approximate number of bytes for each mode, by which a problem too large for the allowed memory is refused: mostly the values
-/// of its shape at the 256 points at which shapes are read at once. Doubled, half as many modes are allowed.
+/// of its shape at the 256 points at which shapes are read at once. With twice this value, half as many modes are allowed.
 const BYTES_PER_MODE: f64 = 2048.0;
 
-/// Number of points in one task. Doubled, there are half as many tasks to share among threads.
+/// Number of points in one task. With twice this value, there are half as many tasks to share among threads.
 const CHUNK: usize = 64;
 
 /// Exact modes that are one sine or cosine along each side: any sides of a membrane, or a plate supported all round.

@@ -10,7 +10,7 @@ use unripple_effects::limits::{SHARE, TIME};
 
 /// Types of AHAP events that are known; the two for the ear are passed over.
 const EVENTS: [&str; 4] = ["HapticTransient", "HapticContinuous", "AudioContinuous", "AudioCustom"];
-/// Most points of all curves of one kind. Every event looks its values up among them, so the work grows with their
+/// Largest number of points of all curves of one kind. Every event looks its values up among them, so the work grows with their
 /// number times that of the events.
 const MOST_POINTS: usize = 16_384;
 /// Intensity and sharpness of events that do not say. The middle of their range.

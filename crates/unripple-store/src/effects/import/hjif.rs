@@ -22,7 +22,7 @@ const TICKS: [f64; 2] = [0.0, 1e9];
 /// Least and greatest number taken for a gain, or for a frequency before it is clamped: products of a few such stay
 /// finite.
 const GAIN: [f64; 2] = [-1e6, 1e6];
-/// Most keyframes read, those of an effect of the library each time that it is referred to. Past it the file is
+/// Largest number of keyframes read, those of an effect of the library each time that it is referred to. Past it the file is
 /// refused, so that a small file with many references takes no unbounded memory.
 const MOST_FRAMES: usize = 1 << 16;
 

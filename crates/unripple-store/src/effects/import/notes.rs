@@ -3,7 +3,7 @@
 use crate::StoreError;
 use unripple_effects::{Envelope, Event, Score, Sound, Start, limits};
 
-/// Most points of all envelopes of an import together. Past it the file is refused, which bounds memory.
+/// Largest number of points of all envelopes of an import together. Past it the file is refused, which bounds memory.
 const MOST_POINTS: usize = 1 << 16;
 
 /// The events read so far.

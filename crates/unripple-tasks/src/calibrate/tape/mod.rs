@@ -30,7 +30,7 @@ use unripple_store::Library;
 /// Samples of a block: nothing waits for it, so that it only sets the silence at the beginning.
 const BLOCK: usize = 256;
 
-/// Most recordings, all repeats of all points: nobody makes more by hand. Doubled, a plan of 20 MB.
+/// Largest number of recordings, all repeats of all points: nobody makes more by hand. With twice this value, a plan takes 20 MB.
 const MOST_RECORDINGS: usize = 100_000;
 
 pub(super) use plan::drive as sweeps;
