@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from unripple import _unripple
 
 
+#: The key of the record of how a report was made, the last of its keys.
+_RECORD = "run"
+
+
 class Part(Mapping[str, Any]):
     """A part of a report: a read-only mapping whose keys are attributes too."""
 
@@ -26,10 +30,10 @@ class Part(Mapping[str, Any]):
         return _wrapped(self._data[key])
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._data)
+        return iter(self._keys())
 
     def __len__(self) -> int:
-        return len(self._data)
+        return len(self._keys())
 
     def __getattr__(self, name: str) -> Any:
         # Looked up in the class's own way only: a copy under construction has no data yet.
@@ -41,7 +45,7 @@ class Part(Mapping[str, Any]):
         raise AttributeError(f"expected a key of the report, found {name}{hint}")
 
     def __dir__(self) -> Iterable[str]:
-        return [*super().__dir__(), *self._data]
+        return [*super().__dir__(), *self._keys()]
 
     def __repr__(self) -> str:
         return repr(self._data)
@@ -57,7 +61,15 @@ class Part(Mapping[str, Any]):
     def _repr_html_(self) -> str:
         from unripple import _html
 
-        return _html.report(self._data)
+        return _html.report(self._whole())
+
+    def _keys(self) -> list[str]:
+        """Return all keys."""
+        return list(self._data)
+
+    def _whole(self) -> dict[str, Any]:
+        """Return all data."""
+        return self._data
 
 
 class Report(Part):
@@ -83,27 +95,47 @@ class Report(Part):
     True
     """
 
-    __slots__ = ("_failure", "_json", "_text")
+    __slots__ = ("_failure", "_json", "_late", "_text")
+
+    #: What writes the report with its record, where nobody has asked for that yet.
+    _late: _unripple.Done | None
 
     def __init__(self, text: str, as_json: str, failure: str | None = None) -> None:
-        try:
-            data = json.loads(as_json)
-        except ValueError as error:
-            raise InputError(f"report: expected JSON, found {error}") from None
-        if not isinstance(data, dict):
-            raise InputError("report: expected an object of JSON, found another value")
-        super().__init__(data)
+        super().__init__(_parsed(as_json))
         self._text = text
         self._json = as_json
         self._failure = failure
+        self._late = None
 
     @classmethod
     def _of(cls, done: _unripple.Done) -> Report:
         """Return the report of a task that is done; warn if it counts as failed."""
-        report = cls(done.text, done.json, done.failure)
+        unrecorded = done.unrecorded
+        report = cls(done.text, done.json if unrecorded is None else unrecorded, done.failure)
+        report._late = None if unrecorded is None else done
         if done.failure is not None:
             _progress.warn(done.failure)
         return report
+
+    def __getitem__(self, key: str) -> Any:
+        return _wrapped((self._whole() if key == _RECORD else self._data)[key])
+
+    def __getattr__(self, name: str) -> Any:
+        if name == _RECORD:
+            self._whole()
+        return super().__getattr__(name)
+
+    def _keys(self) -> list[str]:
+        return super()._keys() if self._late is None else [*self._data, _RECORD]
+
+    def _whole(self) -> dict[str, Any]:
+        late = self._late
+        if late is not None:
+            # In this order: who sees no `_late` may be another thread, and finds the rest.
+            self._json = late.json
+            self._data = _parsed(self._json)
+            self._late = None
+        return self._data
 
     @property
     def failure(self) -> str | None:
@@ -117,7 +149,7 @@ class Report(Part):
         return str(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Report, (self._text, self._json, self._failure)
+        return Report, (self._text, self.to_json(), self._failure)
 
     def to_dict(self) -> dict[str, Any]:
         """Return a copy as nested dicts and lists, equal to what ``json.loads`` makes of the command line's ``--json``.
@@ -134,7 +166,7 @@ class Report(Part):
         >>> report.to_dict() == json.loads(report.to_json())
         True
         """
-        copied: dict[str, Any] = json.loads(self._json)
+        copied: dict[str, Any] = json.loads(self.to_json())
         return copied
 
     def to_json(self) -> str:
@@ -150,7 +182,9 @@ class Report(Part):
         >>> ur.design("hudin-2012").to_json()[0]
         '{'
         """
-        return self._json
+        # Another thread may be reading it.
+        late = self._late
+        return self._json if late is None else late.json
 
     def to_dataframe(
         self, key: str | None = None, *, library: Literal["pandas", "polars"] | None = None
@@ -188,7 +222,18 @@ class Report(Part):
         """
         from unripple import _labels
 
-        return _labels.dataframe(self._data, key, library)
+        return _labels.dataframe(self._data if key is None else self._whole(), key, library)
+
+
+def _parsed(text: str) -> dict[str, Any]:
+    """Return the data of a report from its JSON."""
+    try:
+        data = json.loads(text)
+    except ValueError as error:
+        raise InputError(f"report: expected JSON, found {error}") from None
+    if not isinstance(data, dict):
+        raise InputError("report: expected an object of JSON, found another value")
+    return data
 
 
 def _wrapped(value: Any) -> Any:

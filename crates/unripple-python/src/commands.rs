@@ -6,6 +6,7 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use serde_json::Value;
 use std::ffi::OsString;
+use std::sync::{Arc, OnceLock};
 use unripple_store::{BUILTINS, builtin_effects};
 use unripple_tasks::record::Request;
 use unripple_tasks::{Progress, Record, Report, TaskError, play, rerun};
@@ -13,12 +14,48 @@ use unripple_tasks::{Progress, Record, Report, TaskError, play, rerun};
 /// What a task has done: its report, as JSON and as text.
 #[pyclass(frozen, module = "unripple._unripple")]
 #[derive(Clone)]
-pub struct Done(unripple_tasks::commands::Done);
+pub struct Done {
+    /// The report. Its JSON is without the record where that is `late`.
+    done: unripple_tasks::commands::Done,
+    late: Option<Arc<Late>>,
+}
+
+/// The JSON of a report with a record that takes long to write, such as one that holds a drive: written when it is first asked for.
+struct Late {
+    write: Box<dyn Fn() -> Result<String, TaskError> + Send + Sync>,
+    json: OnceLock<String>,
+}
+
+impl Late {
+    fn json(&self) -> Result<&str, TaskError> {
+        if let Some(json) = self.json.get() {
+            return Ok(json);
+        }
+        // Two threads that ask at once write the same.
+        let json = (self.write)()?;
+        Ok(self.json.get_or_init(|| json))
+    }
+}
 
 impl Done {
     /// A report, with the record of how it was made; without one, the JSON has no key "run".
     pub(crate) fn of(report: &impl Report, record: Option<&Record>) -> Result<Self, TaskError> {
-        unripple_tasks::commands::Done::of(report, record).map(Self)
+        unripple_tasks::commands::Done::of(report, record).map(Self::from)
+    }
+
+    /// A report whose JSON with its record is written when it is first asked for.
+    pub(crate) fn late(
+        report: &impl Report,
+        write: impl Fn() -> Result<String, TaskError> + Send + Sync + 'static,
+    ) -> Result<Self, TaskError> {
+        let late = Late { write: Box::new(write), json: OnceLock::new() };
+        Ok(Self { late: Some(Arc::new(late)), ..Self::of(report, None)? })
+    }
+}
+
+impl From<unripple_tasks::commands::Done> for Done {
+    fn from(done: unripple_tasks::commands::Done) -> Self {
+        Self { done, late: None }
     }
 }
 
@@ -26,20 +63,29 @@ impl Done {
 impl Done {
     /// The report with its record, as the JSON text that `--json` prints. Quantities are in SI units.
     #[getter]
-    fn json(&self) -> &str {
-        &self.0.json
+    fn json(&self, py: Python<'_>) -> PyResult<&str> {
+        match &self.late {
+            Some(late) => brief(py, || late.json()),
+            None => Ok(&self.done.json),
+        }
+    }
+
+    /// The report's JSON without its record, where that is written when `json` is first asked for; None where it is there already.
+    #[getter]
+    fn unrecorded(&self) -> Option<&str> {
+        self.late.as_ref().map(|_| self.done.json.as_str())
     }
 
     /// The report for people, as lines of text.
     #[getter]
     fn text(&self) -> &str {
-        &self.0.text
+        &self.done.text
     }
 
     /// Reason for which the task counts as failed although it has a report; None if it succeeded.
     #[getter]
     fn failure(&self) -> Option<&str> {
-        self.0.failure.as_deref()
+        self.done.failure.as_deref()
     }
 }
 
@@ -88,13 +134,13 @@ pub(crate) fn run(
 ) -> PyResult<Done> {
     let ask = json(ask).map_err(|error| raised(py, error))?;
     if !plays(&command, &ask) {
-        return work(py, progress, threads, named(command, ask)).map(Done);
+        return work(py, progress, threads, named(command, ask)).map(Done::from);
     }
     let (played, exception) = work_to_its_end(py, progress, named(command, ask))?;
-    let Some(exception) = exception else { return Ok(Done(played)) };
+    let Some(exception) = exception else { return Ok(Done::from(played)) };
     // Other exceptions are somebody's own, to whose attributes nothing is added.
     if exception.is_instance_of::<PyKeyboardInterrupt>(py) {
-        exception.value(py).setattr("done", Done(played))?;
+        exception.value(py).setattr("done", Done::from(played))?;
     }
     Err(exception)
 }

@@ -77,7 +77,8 @@ impl Field {
 
 #[pymethods]
 impl Field {
-    /// The report. Its JSON has a record, the key "run", unless the responses are those of an array; the record holds the drive's samples.
+    /// The report. Its JSON has a record, the key "run", unless the responses are those of an array; the record holds the drive's samples,
+    /// and is written when it is first asked for.
     #[getter]
     fn done(&self) -> Done {
         self.0.done.clone()

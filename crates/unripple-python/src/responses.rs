@@ -323,8 +323,8 @@ impl Responses {
         threads: Option<usize>,
     ) -> PyResult<Field> {
         // As it is emitted, and as a WAV file holds it: in float32.
-        let drive = unripple::core::Drive::clone(drive.get().inner()).as_emitted();
-        let run = move |held: &Held, ask, progress: &mut dyn Progress| held.field(ask, &drive, progress);
+        let drive = Arc::new(unripple::core::Drive::clone(drive.get().inner()).as_emitted());
+        let run = move |held: &Held, ask, progress: &mut dyn Progress| held.field(ask, drive, progress);
         Ok(Field::of(self.task(py, ask, (progress, threads), run)?))
     }
 

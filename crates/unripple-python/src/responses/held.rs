@@ -229,11 +229,12 @@ impl Held {
         played(stroke::make_on(&ask, self.source.clone(), progress)?, columns, record.as_ref())
     }
 
-    /// Evaluates what a drive does to the surface. The record holds the samples of the drive.
+    /// Evaluates what a drive does to the surface. The record holds the samples of the drive, which are many times as long as the report,
+    /// and take longer to write than a small field to evaluate: it is written when it is first asked for.
     pub fn field(
         &self,
         mut ask: field::Ask,
-        drive: &Drive,
+        drive: Arc<Drive>,
         progress: &mut dyn Progress,
     ) -> Result<Seen, TaskError> {
         let columns = columns(ask.no_figures, ask.columns, ask.output.as_deref())?;
@@ -249,16 +250,23 @@ impl Held {
         let record = match &self.origin {
             Origin::Array { .. } => None,
             Origin::Surface { .. } | Origin::Library { .. } => {
-                let channels = drive.channels().to_vec();
-                let recorded = DriveAsk::Samples { channels, rate_hz: drive.rate() };
-                Some(Record::of(&field::Ask { drive: recorded, ..ask.clone() })?)
+                // Of all but the samples: files may change meanwhile.
+                let drive = DriveAsk::Samples { channels: Vec::new(), rate_hz: drive.rate() };
+                Some(Record::of(&field::Ask { drive, ..ask.clone() })?)
             }
         };
-        let mut made = field::make_on(&ask, self.source.clone(), drive.clone(), progress)?;
+        let mut made = field::make_on(&ask, self.source.clone(), Drive::clone(&drive), progress)?;
         if self.is_made_up() {
             array::forget(&mut made.report);
         }
-        let (done, made) = (Done::of(&made.report, record.as_ref())?, Arc::new(made));
+        let done = match record {
+            None => Done::of(&made.report, None)?,
+            Some(record) => {
+                let report = made.report.clone();
+                Done::late(&made.report, move || with_samples(&record, &drive)?.json(&report))?
+            }
+        };
+        let made = Arc::new(made);
         Ok(Seen { done, draw: draw(made.clone(), columns, field::figures), made })
     }
 
@@ -322,6 +330,14 @@ impl Held {
         };
         same.then(|| Record::of(ask)).transpose()
     }
+}
+
+/// The record of a field with the samples of its drive.
+fn with_samples(record: &Record, drive: &Drive) -> Result<Record, TaskError> {
+    let samples = DriveAsk::Samples { channels: drive.channels().to_vec(), rate_hz: drive.rate() };
+    let mut record = record.clone();
+    record.ask["drive"] = serde_json::to_value(samples).map_err(TaskError::work)?;
+    Ok(record)
 }
 
 /// How wide figures are, where an ask wants them; refuses a folder for them.
