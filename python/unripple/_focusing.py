@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from unripple._drive import Drive
     from unripple._field import Field
     from unripple._responses import Responses
+    from unripple._surface import Surface
 
 
 class Focusing:
@@ -22,13 +23,19 @@ class Focusing:
     __slots__ = ()
 
     @abstractmethod
-    def _source(self, options: dict[str, Any]) -> Responses:
-        """Return the responses from which drives are computed; the option `set`, which changes them, is taken out."""
+    def _chosen(self, options: dict[str, Any]) -> Surface | Responses:
+        """Return what drives are computed for: this, with keys changed as the option `set` says, which is taken out."""
+
+    @abstractmethod
+    def _extent(self) -> tuple[float, float]:
+        """Return width and height of the outline's bounding box, in m."""
 
     def _computed(self, command: str, options: dict[str, Any]) -> Drive:
-        source = self._source(options)
-        _values.warn_of_metres("targets", options.get("targets", options.get("at")), source.surface.extent_m)
-        return source._focused(command, options)
+        from unripple import _evaluation
+
+        chosen = self._chosen(options)
+        _values.warn_of_metres("targets", options.get("targets", options.get("at")), chosen._extent())
+        return _evaluation.focused(chosen, command, options)
 
     def focus(
         self, targets: _types.Targets | None = None, /, **options: Unpack[_types.FocusOptions]
@@ -175,5 +182,7 @@ class Focusing:
         >>> field.report.targets[0].at_m
         [0.04, 0.05]
         """
+        from unripple import _evaluation
+
         given: dict[str, Any] = {**options}
-        return self._source(given)._field(drive, given)
+        return _evaluation.field(self._chosen(given), drive, given)

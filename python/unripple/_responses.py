@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from unripple import _evaluation, _unripple, _values
-from unripple._drive import Drive, channel_names, floats, given
+from unripple import _unripple, _values
+from unripple._drive import channel_names, floats, given
 from unripple._errors import AskError, InputError, OptionError
-from unripple._field import Field
 from unripple._focusing import Focusing
 from unripple._progress import Telling, chosen_threads
 from unripple._surface import Surface
@@ -346,16 +345,13 @@ class Responses(Focusing):
 
         return _html.responses(self)
 
-    def _source(self, options: dict[str, Any]) -> Responses:
+    def _chosen(self, options: dict[str, Any]) -> Responses:
         if options.get("set") is not None:
             raise OptionError("set: expected a surface, whose keys it sets, found responses")
         return self
 
-    def _focused(self, command: str, options: Mapping[str, Any]) -> Drive:
-        return _evaluation.focused(self, command, options)
-
-    def _field(self, drive: object, options: Mapping[str, Any]) -> Field:
-        return _evaluation.field(self, drive, options)
+    def _extent(self) -> tuple[float, float]:
+        return self.surface.extent_m
 
 
 def _metres(name: str, places_mm: object) -> npt.NDArray[np.float64]:

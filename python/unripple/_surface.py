@@ -225,11 +225,12 @@ class Surface(Reporting, Focusing):
     def _report(self, command: str, options: Mapping[str, Any]) -> Report:
         return _call.report(command, options, surface=self)
 
-    def _source(self, options: dict[str, Any]) -> Responses:
+    def _chosen(self, options: dict[str, Any]) -> Surface:
         changed = options.pop("set", None)
-        surface = self if changed is None else self.with_(**_keys.read_all(changed))
-        calls: dict[str, Any] = {name: options[name] for name in _options.OF_CALLS if options.get(name) is not None}
-        return surface.responses(**calls)
+        return self if changed is None else self.with_(**_keys.read_all(changed))
+
+    def _extent(self) -> tuple[float, float]:
+        return self.extent_m
 
     def responses(
         self,

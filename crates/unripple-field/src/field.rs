@@ -168,17 +168,25 @@ pub(crate) fn bounded(what: &'static str, found: usize) -> Result<(), FieldError
 
 /// Refuses a drive that is not for these responses.
 fn check(responses: &Responses, drive: &Drive) -> Result<(), FieldError> {
+    let names: Vec<&str> = responses.ports().iter().map(|port| port.name.as_str()).collect();
+    let rate = responses.conditions().rate;
+    require("sample rate of the responses (Hz)", rate.is_finite() && rate > 0.0, "a positive number", rate)?;
+    fits(&names, rate, drive)
+}
+
+/// Refuses a drive that is not for actuators of these names, in their order, at a rate in samples per second; and one without samples.
+///
+/// # Errors
+/// [`FieldError::Channels`], [`FieldError::Rate`] and [`FieldError::Count`].
+pub fn fits(actuators: &[&str], rate: f64, drive: &Drive) -> Result<(), FieldError> {
     let list = |names: Vec<&str>| {
         let more = if names.len() > 16 { ", …" } else { "" };
         format!("{} ({}{more})", names.len(), names[..names.len().min(16)].join(", "))
     };
-    let expected: Vec<&str> = responses.ports().iter().map(|port| port.name.as_str()).collect();
     let found: Vec<&str> = drive.names().iter().map(String::as_str).collect();
-    if expected != found {
-        return Err(FieldError::Channels { expected: list(expected), found: list(found) });
+    if actuators != found {
+        return Err(FieldError::Channels { expected: list(actuators.to_vec()), found: list(found) });
     }
-    let rate = responses.conditions().rate;
-    require("sample rate of the responses (Hz)", rate.is_finite() && rate > 0.0, "a positive number", rate)?;
     // The same rate, but for what rounding in files leaves.
     if (drive.rate() / rate - 1.0).abs() > 1e-9 {
         return Err(FieldError::Rate { expected: rate, found: drive.rate() });

@@ -68,7 +68,7 @@ mod waveform;
 
 pub use aim::{Aim, MeasureOptions};
 pub use error::FieldError;
-pub use field::{Field, Snapshot};
+pub use field::{Field, Snapshot, fits};
 pub use figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
 pub use grid::Grid;
 pub use instant::Instant;

@@ -5,9 +5,7 @@ use crate::planned::Planned;
 use crate::recording::{Recorder, Recording};
 use crate::schedule::{self, MOST_SAMPLES, Schedule};
 use crate::settle::settle;
-use crate::{
-    FeltPlan, FocusError, Focused, LossCorrection, Method, Options, Shaping, Target, Timing, target,
-};
+use crate::{FeltPlan, FocusError, Focused, LossCorrection, Method, Options, Shaping, Target, Timing};
 use unripple_core::{Drive, Point, Responses, require, window_samples};
 
 /// Decay, in nepers, after which earlier periods no longer matter to a repeated drive: to 1/1000. With twice this value, repeated
@@ -107,7 +105,7 @@ impl<'r> Focuser<'r> {
     pub fn focus_at(&self, targets: &[Target], share: f64) -> Result<Focused, FocusError> {
         let positive = share.is_finite() && share > 0.0;
         require("share of the level at the limit", positive, "a positive number", share)?;
-        target::check(targets, &self.responses.conditions().outline)?;
+        Target::check(targets, &self.responses.conditions().outline)?;
         let schedule = self.schedule(targets)?;
         let mut channels = vec![vec![0.0; schedule.length]; self.responses.ports().len()];
         let mut shaping = match self.options.method {

@@ -182,8 +182,11 @@ impl Options {
         }
     }
 
-    /// Refuses options out of their range.
-    pub(crate) fn check(&self) -> Result<(), FocusError> {
+    /// Refuses options out of their range, those of the method among them.
+    ///
+    /// # Errors
+    /// [`FocusError::Range`] that names the first of them.
+    pub fn check(&self) -> Result<(), FocusError> {
         let positive = |x: f64| x.is_finite() && x > 0.0;
         require("window (s)", positive(self.window), "a positive number", self.window)?;
         require("limit", positive(self.limit), "a positive number", self.limit)?;
@@ -203,6 +206,9 @@ impl Options {
         require("spread of frequencies", (0.0..0.5).contains(&self.spread), "0 to 0.5", self.spread)?;
         if let LossCorrection::Uniform(tau) = self.loss {
             require("decay time of the loss correction (s)", positive(tau), "a positive number", tau)?;
+        }
+        if self.method == Method::Felt {
+            self.felt().check()?;
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use crate::gains::gains;
 use crate::recording::{Recorder, Recording};
 use crate::settle::settle;
-use crate::{FocusError, Options, Target, level, target};
+use crate::{FocusError, Options, Target, level};
 use unripple_core::{Drive, Point, Responses, require, window_samples};
 
 /// Decay, in nepers, after which responses are cut off: to 1/10 000. With twice this value, recordings are twice as long for levels
@@ -147,7 +147,7 @@ fn check(responses: &Responses, pulses: &[Pulse], options: &PulseOptions) -> Res
         return Err(FocusError::Count { what: "points over all pulses", expected, found: points });
     }
     let of = |p: &Pulse| Target { points: p.points.clone(), gain: p.level, rate_hz: None };
-    target::check(&pulses.iter().map(of).collect::<Vec<_>>(), &responses.conditions().outline)?;
+    Target::check(&pulses.iter().map(of).collect::<Vec<_>>(), &responses.conditions().outline)?;
     if responses.ports().is_empty() {
         return Err(FocusError::Count { what: "actuators", expected: "at least 1".to_owned(), found: 0 });
     }

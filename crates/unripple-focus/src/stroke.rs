@@ -2,7 +2,7 @@
 
 use crate::waveform::MOST_SAMPLES;
 use crate::{FocusError, Pattern, Pulse};
-use unripple_core::{Point, Responses, require};
+use unripple_core::{Conditions, Point, Responses, require};
 
 /// A focus that moves along a path: pulses at successive places, all at one level.
 ///
@@ -87,7 +87,14 @@ impl Stroke {
     /// Those of [`Stroke::check`]; [`FocusError::Range`] for a speed at which pulses would follow one another within half a
     /// period of the highest frequency. Whether the path is filled makes no difference.
     pub fn pulses(&self, responses: &Responses) -> Result<Vec<Pulse>, FocusError> {
-        let conditions = responses.conditions();
+        self.pulses_in(responses.conditions())
+    }
+
+    /// The same pulses, where responses of these conditions are still to be computed.
+    ///
+    /// # Errors
+    /// Those of [`Stroke::pulses`].
+    pub fn pulses_in(&self, conditions: &Conditions) -> Result<Vec<Pulse>, FocusError> {
         self.check(conditions.rate)?;
         let duration = self.duration();
         let most = conditions.band[1] * conditions.lambda_min / 4.0;

@@ -44,33 +44,37 @@ impl Target {
     pub fn repeated(self, rate_hz: f64) -> Self {
         Self { rate_hz: Some(rate_hz), ..self }
     }
-}
 
-/// Refuses targets without points, outside the outline, without a finite gain, or with too many points in all.
-pub(crate) fn check(targets: &[Target], outline: &Outline) -> Result<(), FocusError> {
-    let count = |what, found| FocusError::Count { what, expected: format!("1 to {MOST_POINTS}"), found };
-    let points: usize = targets.iter().map(|t| t.points.len()).sum();
-    if targets.is_empty() {
-        return Err(count("targets", 0));
-    }
-    if points > MOST_POINTS {
-        return Err(count("points over all targets", points));
-    }
-    for (index, target) in targets.iter().enumerate() {
-        if target.points.is_empty() {
-            return Err(count("points of a target", 0));
+    /// Refuses targets that no drive focuses on, whatever the responses: none, without points, outside the outline, or with gains that are
+    /// not finite or all 0.
+    ///
+    /// # Errors
+    /// [`FocusError::Outside`] with the nearest point of the surface; [`FocusError::Count`] and [`FocusError::Range`].
+    pub fn check(targets: &[Self], outline: &Outline) -> Result<(), FocusError> {
+        let count = |what, found| FocusError::Count { what, expected: format!("1 to {MOST_POINTS}"), found };
+        let points: usize = targets.iter().map(|t| t.points.len()).sum();
+        if targets.is_empty() {
+            return Err(count("targets", 0));
         }
-        if let Some(&at) = target.points.iter().find(|p| !outline.contains(**p)) {
-            return Err(FocusError::Outside { target: index, at, nearest: outline.nearest(at) });
+        if points > MOST_POINTS {
+            return Err(count("points over all targets", points));
         }
-        require(
-            format!("gain of target {}", index + 1),
-            target.gain.is_finite(),
-            "a finite number",
-            target.gain,
-        )?;
+        for (index, target) in targets.iter().enumerate() {
+            if target.points.is_empty() {
+                return Err(count("points of a target", 0));
+            }
+            if let Some(&at) = target.points.iter().find(|p| !outline.contains(**p)) {
+                return Err(FocusError::Outside { target: index, at, nearest: outline.nearest(at) });
+            }
+            require(
+                format!("gain of target {}", index + 1),
+                target.gain.is_finite(),
+                "a finite number",
+                target.gain,
+            )?;
+        }
+        Ok(require("gains", targets.iter().any(|t| t.gain != 0.0), "at least one that is not 0", 0.0)?)
     }
-    Ok(require("gains", targets.iter().any(|t| t.gain != 0.0), "at least one that is not 0", 0.0)?)
 }
 
 #[cfg(test)]
@@ -81,9 +85,9 @@ mod tests {
     #[test]
     fn says_what_is_wrong_and_what_would_be_right() {
         let sheet = Outline::new(Shape::Rectangle { width: 0.1, height: 0.1 });
-        let refused = |targets: &[Target]| check(targets, &sheet).unwrap_err().to_string();
+        let refused = |targets: &[Target]| Target::check(targets, &sheet).unwrap_err().to_string();
         let good = Target::at(Point::from_mm(50.0, 20.0));
-        assert_eq!(check(std::slice::from_ref(&good), &sheet), Ok(()));
+        assert_eq!(Target::check(std::slice::from_ref(&good), &sheet), Ok(()));
         assert_eq!(refused(&[]), "targets: expected 1 to 100000, found 0");
         assert!(refused(&[Target::of(vec![])]).starts_with("points of a target: expected 1"));
         assert_eq!(

@@ -1,6 +1,8 @@
 //! A surface as Python holds it: read once, without faults, and immutable.
 
 use crate::arrays::coordinates;
+use crate::commands::asked;
+use crate::drive::Drive;
 use crate::error::{input, of_surface, raised};
 use crate::progress::brief;
 use numpy::PyArray2;
@@ -8,7 +10,12 @@ use pyo3::prelude::*;
 use std::sync::Arc;
 use unripple::act::unit;
 use unripple_store::{BUILTINS, Library, to_toml};
-use unripple_tasks::{SurfaceAsk, TaskError};
+use unripple_tasks::record::Request;
+use unripple_tasks::{SurfaceAsk, TaskError, commands, field, focus, stroke, waveform};
+
+/// The tasks whose asks a surface refuses before there are modes.
+const CHECKED: [&str; 4] =
+    [focus::Ask::COMMAND, waveform::Ask::COMMAND, stroke::Ask::COMMAND, field::Ask::COMMAND];
 
 /// Pieces of a full turn of a round boundary, enough to look round on a screen.
 const TURN: usize = 256;
@@ -119,6 +126,29 @@ impl Surface {
         let outline = &self.inner.outline;
         let rims = std::iter::once(outline.rim(TURN)).chain(outline.hole_rims(TURN));
         rims.map(|rim| coordinates(py, rim)).collect()
+    }
+
+    /// Refuses an ask, JSON, that makes no sense on this surface, by what can be told before there are modes: of the task `focus`, `waveform` or
+    /// `stroke`, or of `field` with the drive that is to be evaluated.
+    ///
+    /// Raises what the task raises, and AskError for another task, or `field` without a drive.
+    #[pyo3(signature = (command, ask, drive=None))]
+    fn refuse(
+        &self,
+        py: Python<'_>,
+        command: &str,
+        ask: &str,
+        drive: Option<&Bound<'_, Drive>>,
+    ) -> PyResult<()> {
+        let (surface, drive) = (&*self.inner, drive.map(|drive| drive.get().inner()));
+        brief(py, || match (command, drive) {
+            (focus::Ask::COMMAND, _) => focus::check(&asked(ask)?, surface),
+            (waveform::Ask::COMMAND, _) => waveform::check(&asked(ask)?, surface),
+            (stroke::Ask::COMMAND, _) => stroke::check(&asked(ask)?, surface),
+            (field::Ask::COMMAND, Some(drive)) => field::check(&asked(ask)?, surface, drive),
+            (field::Ask::COMMAND, None) => Err(TaskError::ask("drive", "a drive", "none")),
+            (other, _) => Err(commands::unknown(other, &CHECKED)),
+        })
     }
 }
 

@@ -49,6 +49,19 @@ pub fn models(
     Ok(found?)
 }
 
+/// Refuses a highest frequency (Hz) of the modes to evaluate a drive on that is below the band of a surface, before there are modes.
+pub(crate) fn reaches(surface: &Surface, judge_hz: Option<f64>) -> Result<(), TaskError> {
+    let top = surface.emission.band[1];
+    match judge_hz.filter(|hz| hz.is_nan() || *hz < top) {
+        Some(hz) => Err(TaskError::ask(
+            "judge_hz",
+            format!("at least {top} Hz, the top of the band"),
+            format!("{hz} Hz"),
+        )),
+        None => Ok(()),
+    }
+}
+
 /// Evaluates the field of a drive at the aims, which are places and instants. `period` (s) is that of a repeated drive. Traces end at
 /// `until` (s), or where the field is no longer known.
 ///

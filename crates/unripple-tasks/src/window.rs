@@ -2,7 +2,15 @@
 
 use crate::TaskError;
 use unripple::act;
-use unripple::core::Conditions;
+use unripple::core::{Conditions, Surface};
+use unripple::physics::Medium;
+
+/// Rate, band and region of the responses that a surface will have.
+pub(crate) fn conditions(surface: &Surface) -> Conditions {
+    let (rate, band) = (surface.emission.rate, surface.emission.band);
+    let lambda_min = Medium::of(&surface.sheet).lambda_min(band[1]);
+    Conditions { rate, band, lambda_min, outline: surface.outline.clone() }
+}
 
 /// Refuses a time that no wave of the band fits into, naming the field that makes it longer.
 pub(crate) fn carries(conditions: &Conditions, seconds: f64, field: &str) -> Result<(), TaskError> {

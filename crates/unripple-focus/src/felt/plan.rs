@@ -10,7 +10,7 @@ use super::splines::Splines;
 use super::watch::Watch;
 use crate::magnitude::{energy, peak};
 use crate::schedule::MOST_SAMPLES;
-use crate::{FocusError, Focused, Method, Shaping, Target, Timing, target};
+use crate::{FocusError, Focused, Method, Shaping, Target, Timing};
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Drive, ModalResponses, OutOfRange, Point, Responses, require, window_samples};
 use unripple_linalg::{Cholesky, Mat, MatRef, product, solve_lower};
@@ -146,7 +146,7 @@ impl<'r> FeltPlan<'r> {
 
     /// The drive before limits, in spline coefficients `[actuator][spline]`.
     fn coefficients(&self, targets: &[Target]) -> Result<Vec<f64>, FocusError> {
-        target::check(targets, &self.responses.conditions.outline)?;
+        Target::check(targets, &self.responses.conditions.outline)?;
         let rows = targets.iter().enumerate().map(|(k, target)| self.felt_at(k, target));
         let rows = rows.collect::<Result<Vec<_>, _>>()?;
         let levels: Vec<f64> = targets.iter().map(|target| target.gain).collect();

@@ -8,7 +8,7 @@ mod signal;
 mod solve;
 mod transfer;
 
-use crate::{FocusError, Target, level, target};
+use crate::{FocusError, Target, level};
 pub use motion::{Quantity, Waveform};
 pub use options::PlayOptions;
 pub(crate) use plan::MOST_SAMPLES;
@@ -89,7 +89,7 @@ pub fn play(
 fn check(waveforms: &[Waveform], silent: &[Point], responses: &Responses) -> Result<(), FocusError> {
     let targets = waveforms.iter().map(|w| w.points.clone()).chain(silent.iter().map(|p| vec![*p]));
     let targets: Vec<Target> = targets.map(Target::of).collect();
-    target::check(&targets, &responses.conditions().outline)?;
+    Target::check(&targets, &responses.conditions().outline)?;
     let count = |what, found| Err(FocusError::Count { what, expected: "at least 1".to_owned(), found });
     if waveforms.is_empty() {
         return count("waveforms", 0);

@@ -5,7 +5,6 @@ use super::failed::{Failed, survived};
 use super::front::{self, Front};
 use super::ground::Ground;
 use super::row::{self, Row};
-use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
 use crate::{Progress, Solved, TaskError, go_on, judge};
@@ -62,7 +61,7 @@ pub(super) fn on(
     go_on(progress)?;
     progress.stage(&format!("{of}{}", judge::RESPONSES));
     let (judge::Models { free: plant, .. }, judging) = judge::models(surface, ask.judge_hz, &[], &solved)?;
-    let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+    let asked = ask.window_s;
     go_on(progress)?;
     progress.stage(&format!("{of}window"));
     let chosen = asked.is_none().then(|| chosen_window(surface, &known));

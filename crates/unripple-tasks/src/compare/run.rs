@@ -2,8 +2,13 @@
 
 use super::{Ask, FailedSurface, On, Report, compared, figure};
 use crate::figures::Columns;
+use crate::judge::reaches;
+use crate::numbers::above_zero;
+use crate::target::targets;
+use crate::window::{carries, conditions};
 use crate::{Progress, TaskError, figures, folder, go_on};
 use unripple::core::Surface;
+use unripple::focus::Target;
 use unripple_plot::Figure;
 
 /// Computes and evaluates the drive of every method on the same targets, on each surface; on one surface also the tradeoff curves of the
@@ -39,6 +44,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let surfaces = ask.all().map(|surface| surface.load()).collect::<Result<Vec<Surface>, TaskError>>()?;
     let (columns, labels) = (Columns::of(ask.columns)?, labels(ask, &surfaces)?);
     let level = ask.level.level()?;
+    check(ask, &surfaces)?;
     let out = folder::begin(ask.output.as_deref(), ask)?;
     let on = each(ask, &surfaces, labels, progress)?;
     let mut found = Report {
@@ -58,6 +64,19 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         folder::finish(out, progress)?;
     }
     Ok(found)
+}
+
+/// Refuses what makes no sense before there is work to lose. Of several surfaces each is asked by itself whether the targets are on it.
+fn check(ask: &Ask, surfaces: &[Surface]) -> Result<(), TaskError> {
+    let window = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+    if let [surface] = surfaces {
+        reaches(surface, ask.judge_hz)?;
+        let conditions = conditions(surface);
+        window.map_or(Ok(()), |window| carries(&conditions, window, "window_s"))?;
+        let targets = targets(&ask.points, &ask.shapes, conditions.lambda_min)?;
+        Target::check(&targets, &surface.outline).map_err(TaskError::input)?;
+    }
+    Ok(())
 }
 
 /// What each surface is called: as the ask says, by its own name, or as it was asked for where two have the same name.

@@ -9,5 +9,5 @@ mod write;
 pub use ask::{Ask, DriveAsk};
 pub use made::Made;
 pub use report::Report;
-pub use run::{make, make_on, run, run_on};
+pub use run::{check, make, make_on, run, run_on};
 pub use write::figures;

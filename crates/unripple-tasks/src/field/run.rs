@@ -7,7 +7,7 @@ use crate::numbers::above_zero;
 use crate::{Progress, Source, TaskError, fingers, folder, go_on, point, source};
 use unripple::act;
 use unripple::core::{Drive, Point, Surface};
-use unripple::field::{Aim, Field};
+use unripple::field::{Aim, Field, FieldError, fits};
 use unripple_store::read_wav;
 
 /// Measures what a drive does to a surface, and writes that to a folder if one is given.
@@ -24,7 +24,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 /// Those of [`run()`], but for those of reading them.
 pub fn run_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let given = |_: &mut dyn Progress| {
-        check(ask)?;
+        numbers(ask)?;
         driven(ask, source)
     };
     kept(ask, given, progress)
@@ -66,14 +66,15 @@ pub fn make_on(
     drive: Drive,
     progress: &mut dyn Progress,
 ) -> Result<Made, TaskError> {
-    check(ask)?;
+    numbers(ask)?;
     allow(ask, &source)?;
+    before_modes(ask, &source, &drive)?;
     Ok(measured(ask, source, drive, false, progress)?.0)
 }
 
 /// The surface or responses and the drive that an ask names.
 fn open(ask: &Ask, progress: &mut dyn Progress) -> Result<(Source, Drive), TaskError> {
-    check(ask)?;
+    numbers(ask)?;
     driven(ask, source::open(&ask.surface, progress)?)
 }
 
@@ -81,6 +82,7 @@ fn open(ask: &Ask, progress: &mut dyn Progress) -> Result<(Source, Drive), TaskE
 fn driven(ask: &Ask, source: Source) -> Result<(Source, Drive), TaskError> {
     allow(ask, &source)?;
     let drive = drive(&ask.drive, &source.surface)?;
+    before_modes(ask, &source, &drive)?;
     Ok((source, drive))
 }
 
@@ -113,7 +115,7 @@ fn measured(
         }
     };
     let responses = models.under.as_ref().unwrap_or(&models.free);
-    let period = ask.period_s.map(|period| above_zero(period, "period_s", "s")).transpose()?;
+    let period = ask.period_s;
     go_on(progress)?;
     progress.stage("field");
     let field = Field::new(responses, &drive, CELLS).map_err(TaskError::input)?;
@@ -146,18 +148,50 @@ fn measured(
     Ok((Made { report, drive, judged, aims, surface, responses, scaled: !unscaled, when }, movie))
 }
 
-/// Refuses an animation that makes no sense, before there is work to lose.
-fn check(ask: &Ask) -> Result<(), TaskError> {
-    if let Some([from, to]) = ask.movie_s.filter(|[from, to]| !(*from >= 0.0 && to > from && to.is_finite()))
-    {
+/// Refuses what makes no sense by the ask, its surface and the drive alone, so that nobody waits for modes to be told so.
+///
+/// # Errors
+/// Those of [`run()`] that need neither modes nor a field.
+pub fn check(ask: &Ask, surface: &Surface, drive: &Drive) -> Result<(), TaskError> {
+    numbers(ask)?;
+    let names: Vec<&str> = surface.actuators.iter().map(|actuator| actuator.name.as_str()).collect();
+    fits(&names, surface.emission.rate, drive).map_err(TaskError::input)?;
+    judge::reaches(surface, ask.judge_hz)?;
+    let outline = &surface.outline;
+    if let Some(at) = ask.points_m.iter().map(point).find(|at| !outline.contains(*at)) {
+        return Err(TaskError::input(FieldError::Outside { at, nearest: outline.nearest(at) }));
+    }
+    fingers::contacts(&ask.fingers_m, "fingers_m", surface).map(drop)
+}
+
+/// Refuses what makes no sense before there are modes; a library has none to wait for, and refuses the rest by its responses.
+fn before_modes(ask: &Ask, source: &Source, drive: &Drive) -> Result<(), TaskError> {
+    source.stored.as_ref().map_or_else(|| check(ask, &source.surface, drive), |_| Ok(()))
+}
+
+/// Refuses numbers that make no sense on any surface.
+fn numbers(ask: &Ask) -> Result<(), TaskError> {
+    Columns::of(ask.columns)?;
+    ask.period_s.map(|period| above_zero(period, "period_s", "s")).transpose()?;
+    // Without a place there is one, where the field is strongest.
+    let (instants, places) = (ask.instants_s.len(), ask.points_m.len().max(1));
+    if instants > 1 && instants != places {
+        return Err(TaskError::ask("instants_s", format!("one, or one per `points_m` ({places})"), instants));
+    }
+    animated(ask.frames, ask.movie_s)
+}
+
+/// Refuses an animation of so many frames over a span (s) that makes no sense.
+pub(super) fn animated(frames: usize, span: Option<[f64; 2]>) -> Result<(), TaskError> {
+    if let Some([from, to]) = span.filter(|[from, to]| !(*from >= 0.0 && to > from && to.is_finite())) {
         return Err(TaskError::ask(
             "movie_s",
             "a start from 0 and an end after it",
             format!("{from} to {to}"),
         ));
     }
-    if ask.frames > MOST_FRAMES {
-        return Err(TaskError::ask("frames", format!("at most {MOST_FRAMES}"), ask.frames));
+    if frames > MOST_FRAMES {
+        return Err(TaskError::ask("frames", format!("at most {MOST_FRAMES}"), frames));
     }
     Ok(())
 }
@@ -186,14 +220,7 @@ fn aims(
     let instants = match (ask.instants_s.as_slice(), points.len()) {
         ([], _) => own_peaks(field, drive, period, &points)?,
         ([one], n) => vec![*one; n],
-        (many, n) if many.len() == n => many.to_vec(),
-        (many, n) => {
-            return Err(TaskError::ask(
-                "instants_s",
-                format!("one, or one per `points_m` ({n})"),
-                many.len(),
-            ));
-        }
+        (many, _) => many.to_vec(),
     };
     Ok(points.into_iter().zip(instants).map(|(point, instant)| Aim::at(point, instant)).collect())
 }

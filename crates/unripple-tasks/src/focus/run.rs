@@ -1,5 +1,6 @@
 //! Computes a drive that focuses, and evaluates it.
 
+use super::check::{lasts, possible};
 use super::{Ask, Losses, Made, Report, write};
 use crate::figures::Columns;
 use crate::numbers::above_zero;
@@ -78,6 +79,11 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let lambda_min = known
         .unwrap_or_else(|| Medium::of(&source.surface.sheet).lambda_min(source.surface.emission.band[1]));
     let targets = targets(&ask.points, &ask.shapes, lambda_min)?;
+    if known.is_none() {
+        lasts(ask, &source.surface)?;
+    }
+    possible(ask, &source.surface, plant.as_ref().unwrap_or(&source.surface), &targets)?;
+    let level = ask.level.level_on(unscaled.as_deref())?;
     let places: Vec<_> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
     progress.stage("responses");
     let (surface, responses, stored) = source.respond(&places, ask.between)?;
@@ -101,7 +107,6 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
         modelled.then(|| judge::models(judged_surface, ask.judge_hz, &contacts, &solved)).transpose()?;
     let free = models.as_ref().map_or(&responses, |(models, _)| &models.free);
     let under = models.as_ref().and_then(|(models, _)| models.under.as_ref()).unwrap_or(free);
-    let level = ask.level.level_on(unscaled.as_deref())?;
     let act = Act { surface: judged_surface, responses: under, targets: &targets, options: &settings, level };
     let on = act.readouts();
     go_on(progress)?;
@@ -136,7 +141,7 @@ fn window(
     solved: &Solved,
     progress: &mut dyn Progress,
 ) -> Result<(f64, Option<Recommended>), TaskError> {
-    let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+    let asked = ask.window_s;
     if asked.is_none() {
         go_on(progress)?;
         progress.stage("window");
@@ -161,7 +166,8 @@ fn needing_modes(ask: &Ask) -> [(&'static str, bool); 7] {
     ]
 }
 
-fn settings(ask: &Ask, surface: &Surface, window: f64) -> Result<Options, TaskError> {
+/// Options of the method for a window (s), with the limits of a surface.
+pub(super) fn settings(ask: &Ask, surface: &Surface, window: f64) -> Result<Options, TaskError> {
     let loss = match (ask.losses, &surface.sheet.decay) {
         (Losses::None, _) => LossCorrection::None,
         (Losses::PerMode, _) => LossCorrection::PerMode,
@@ -195,16 +201,8 @@ fn settings(ask: &Ask, surface: &Surface, window: f64) -> Result<Options, TaskEr
 
 /// The surface under fingers for which a drive is computed, and other states of it that the drive must tolerate.
 fn aware(ask: &Ask, surface: &Surface) -> Result<Aware, TaskError> {
-    if ask.finger_aware && ask.fingers_m.is_empty() {
-        return Err(TaskError::ask("finger_aware", "`fingers_m` with it", "none"));
-    }
     let resting = fingers::contacts(&ask.fingers_m, "fingers_m", surface)?;
     let known = if ask.finger_aware { resting.as_slice() } else { &[] };
-    if let Some(share) = ask.bear_tension
-        && !(share > 0.0 && share < 0.5)
-    {
-        return Err(TaskError::ask("bear_tension", "a share above 0 and below 0.5", share));
-    }
     let more = fingers::contacts(&ask.bear_fingers_m, "bear_fingers_m", surface)?;
     Ok(Aware::of(surface, known, ask.bear_tension, &more)?)
 }

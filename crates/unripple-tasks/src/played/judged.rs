@@ -60,6 +60,7 @@ pub(crate) fn judge<T>(
     let other = common.on.map(|on| on.load()).transpose()?;
     let plant = other.as_ref().unwrap_or(&surface);
     go_on(progress)?;
+    judge::reaches(plant, common.judge_hz)?;
     let plan = plan(&surface)?;
     progress.stage("responses");
     let [planned, judged] = common.bands;

@@ -7,4 +7,4 @@ mod run;
 pub use crate::played::{Made, figures};
 pub use ask::Ask;
 pub use report::Report;
-pub use run::{make, make_on, run, run_on};
+pub use run::{check, make, make_on, run, run_on};

@@ -2,14 +2,15 @@
 
 use super::{Ask, Report};
 use crate::figures::Columns;
+use crate::judge::reaches;
 use crate::numbers::above_zero;
 use crate::played::{Common, Made, Played, judge, keep};
-use crate::window::carries;
+use crate::window::{carries, conditions};
 use crate::{Progress, Source, TaskError, folder, source};
 use unripple::act::Stroked;
 use unripple::core::{Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
-use unripple::focus::{FocusError, Pattern, PulseOptions, Stroke, strike};
+use unripple::focus::{FocusError, Pattern, PulseOptions, Stroke, Target, strike};
 
 /// Strokes are planned on modes up to the first multiple of the band, and evaluated by default on those up to the second: pulses fill the
 /// whole band.
@@ -63,16 +64,37 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
 /// # Errors
 /// Those of [`make()`], except the errors of reading the surface or responses.
 pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Made, TaskError> {
-    let [speed, level] = velocities(ask)?;
+    velocities(ask)?;
     let common =
         Common { on: ask.on.as_ref(), judge_hz: ask.judge_hz, needs: "waveforms and path", bands: BANDS };
-    let plan = |surface: &Surface| -> Result<Stroke, TaskError> {
-        let path = Pattern { filled: false, ..ask.path.pattern("path")? };
-        let stroke = Stroke { level, ..Stroke::along(path, speed) };
-        stroke.check(surface.emission.rate).map_err(refused)?;
-        Ok(stroke)
-    };
+    let plan = |surface: &Surface| planned(ask, surface);
     judge(common, source, progress, plan, |stroke, surface, models| stroked(ask, surface, &stroke, models))
+}
+
+/// Refuses what makes no sense by the ask and its surface alone, so that nobody waits for modes to be told so.
+///
+/// # Errors
+/// Those of [`run()`] that need neither modes nor a drive.
+pub fn check(ask: &Ask, surface: &Surface) -> Result<(), TaskError> {
+    Columns::of(ask.columns)?;
+    let plant = ask.on.as_ref().map(|on| on.load()).transpose()?;
+    reaches(plant.as_ref().unwrap_or(surface), ask.judge_hz)?;
+    planned(ask, surface).map(drop)
+}
+
+/// The stroke, whose pulses are on a surface and slow enough for its waves.
+fn planned(ask: &Ask, surface: &Surface) -> Result<Stroke, TaskError> {
+    let [speed, level] = velocities(ask)?;
+    let path = Pattern { filled: false, ..ask.path.pattern("path")? };
+    let stroke = Stroke { level, ..Stroke::along(path, speed) };
+    let conditions = conditions(surface);
+    if let Some(window) = ask.window_s {
+        carries(&conditions, above_zero(window, "window_s", "s")?, "window_s")?;
+    }
+    let pulses = stroke.pulses_in(&conditions).map_err(refused)?;
+    let places: Vec<_> = pulses.into_iter().map(|pulse| Target::of(pulse.points)).collect();
+    Target::check(&places, &surface.outline).map_err(TaskError::input)?;
+    Ok(stroke)
 }
 
 /// How fast the focus moves, and the velocity of the sheet that is asked for there, in m/s.

@@ -8,4 +8,4 @@ mod sound;
 pub use crate::played::{Made, figures};
 pub use ask::{Ask, SoundAsk, WaveformAsk};
 pub use report::Report;
-pub use run::{make, make_on, run, run_on};
+pub use run::{check, make, make_on, run, run_on};

@@ -2,13 +2,14 @@
 
 use super::{Ask, Report, sound};
 use crate::figures::Columns;
+use crate::judge::reaches;
 use crate::numbers::above_zero;
 use crate::played::{Common, Made, Played, judge, keep};
 use crate::{Progress, Source, TaskError, folder, point, source};
 use unripple::act::Followed;
 use unripple::core::{Responses, Surface};
 use unripple::field::{Aim, Field, Wanted};
-use unripple::focus::{PlayOptions, Waveform, play};
+use unripple::focus::{PlayOptions, Target, Waveform, play};
 
 /// Waveforms are planned on modes up to the first multiple of the band, and evaluated by default on those up to the second, or the third where
 /// that is out of reach: at low frequencies a sheet yields by modes far above.
@@ -38,7 +39,7 @@ fn kept(
     open: impl FnOnce(&mut dyn Progress) -> Result<Source, TaskError>,
     progress: &mut dyn Progress,
 ) -> Result<Report, TaskError> {
-    check(ask)?;
+    something(ask)?;
     let drawn = (!ask.no_figures).then_some(Columns::of(ask.columns)?);
     let out = folder::begin(ask.output.as_deref(), ask)?;
     keep(make_on(ask, open(progress)?, progress)?, out, drawn, progress)
@@ -49,7 +50,7 @@ fn kept(
 /// # Errors
 /// Those of [`run()`], except the errors of writing files.
 pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
-    check(ask)?;
+    something(ask)?;
     make_on(ask, source::open(&ask.surface, progress)?, progress)
 }
 
@@ -59,21 +60,42 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
 /// # Errors
 /// Those of [`make()`], except the errors of reading the surface.
 pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<Made, TaskError> {
-    check(ask)?;
+    something(ask)?;
     let common =
         Common { on: ask.on.as_ref(), judge_hz: ask.judge_hz, needs: "waveforms and path", bands: BANDS };
-    let plan = |surface: &Surface| -> Result<Vec<Waveform>, TaskError> {
-        ask.waveforms.iter().map(|waveform| sound::waveform(waveform, surface.emission.rate)).collect()
-    };
+    let plan = |surface: &Surface| planned(ask, surface);
     judge(common, source, progress, plan, |waves, surface, models| followed(ask, &waves, surface, models))
 }
 
+/// Refuses what makes no sense by the ask and its surface alone, so that nobody waits for modes to be told so.
+///
+/// # Errors
+/// Those of [`run()`] that need neither modes nor a drive.
+pub fn check(ask: &Ask, surface: &Surface) -> Result<(), TaskError> {
+    something(ask)?;
+    Columns::of(ask.columns)?;
+    let plant = ask.on.as_ref().map(|on| on.load()).transpose()?;
+    reaches(plant.as_ref().unwrap_or(surface), ask.judge_hz)?;
+    planned(ask, surface).map(drop)
+}
+
 /// Refuses to play nothing.
-fn check(ask: &Ask) -> Result<(), TaskError> {
+fn something(ask: &Ask) -> Result<(), TaskError> {
     match ask.waveforms.is_empty() {
         true => Err(TaskError::ask("waveforms", "a waveform at a place", "none")),
         false => Ok(()),
     }
+}
+
+/// The waveforms at the rate of a surface, whose places they and the silence are on.
+fn planned(ask: &Ask, surface: &Surface) -> Result<Vec<Waveform>, TaskError> {
+    ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+    let waves = ask.waveforms.iter().map(|waveform| sound::waveform(waveform, surface.emission.rate));
+    let waves = waves.collect::<Result<Vec<_>, TaskError>>()?;
+    let places = waves.iter().map(|wave| Target::of(wave.points.clone()));
+    let places: Vec<_> = places.chain(ask.silent_m.iter().map(|place| Target::at(point(place)))).collect();
+    Target::check(&places, &surface.outline).map_err(TaskError::input)?;
+    Ok(waves)
 }
 
 fn followed(
