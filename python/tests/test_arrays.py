@@ -129,7 +129,11 @@ def test_a_drive_has_one_array_that_nobody_can_write_to() -> None:
     drive = rust.Drive(given, RATE, NAMES)
     samples = drive.samples
     assert samples.dtype == np.float64 and samples.shape == (3, 4) and samples.flags.c_contiguous
-    assert samples is drive.samples and np.shares_memory(samples, drive.samples) and is_sealed(samples)
+    assert np.shares_memory(samples, drive.samples) and is_sealed(samples)
+    # Whoever has it may change its shape, which is nobody else's.
+    samples.shape = (4, 3)
+    samples = drive.samples
+    assert samples.shape == (3, 4) and samples[2, 3] == 11.0
     # It is the drive's own: what was given may change.
     given[0, 0] = 99.0
     assert samples[0, 0] == 0.0

@@ -117,7 +117,7 @@ class Drive:
 
     @property
     def samples(self) -> npt.NDArray[np.float64]:
-        """Samples in the actuators' units, of shape (actuators, samples); read-only, the same array each time."""
+        """Samples in the actuators' units, of shape (actuators, samples); read-only, each time a view of the same memory."""
         return self._raw.samples
 
     @property

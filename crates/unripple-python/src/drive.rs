@@ -54,14 +54,15 @@ impl Drive {
         made.map(Self::of)
     }
 
-    /// The samples, in the actuators' units: float64 [actuator, sample]. Read-only; the same array each time.
+    /// The samples, in the actuators' units: float64 [actuator, sample]. Read-only; each time another view of the same memory, since whoever
+    /// has an array can change its shape.
     #[getter]
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let made = self.samples.get_or_try_init(py, || -> PyResult<Py<PyArray2<f64>>> {
             let channels = self.inner.channels();
             Ok(moved(py, channels.concat(), [channels.len(), self.inner.samples()])?.unbind())
         })?;
-        Ok(made.bind(py).clone())
+        Ok(made.bind(py).call_method0("view")?.cast_into()?)
     }
 
     /// Samples per second, in Hz.
