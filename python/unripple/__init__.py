@@ -17,7 +17,7 @@ from unripple._errors import (
 from unripple._field import Field
 from unripple._libraries import calibrate, export, fit, open, respond
 from unripple._lists import builtin, commands, devices, effects, materials
-from unripple._motion import Snapshots, Traces
+from unripple._motion import FingerMotion, Snapshots, Traces
 from unripple._player import Felt, Player
 from unripple._progress import set_progress, set_threads
 from unripple._report import Report
@@ -25,7 +25,7 @@ from unripple._responses import Responses
 from unripple._surface import Surface
 from unripple._tasks import check, compare, design, doctor, drift, modes, play, reproduce, rerun, run
 from unripple._view import View
-from unripple._virtual import FingerMotion, VirtualSurface
+from unripple._virtual import VirtualSurface
 
 __all__ = [
     "AskError",

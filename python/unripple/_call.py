@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from unripple import _options, _targets, _unripple, _values
-from unripple._errors import AskError, OptionError
+from unripple._errors import OptionError, UnrippleError
 from unripple._progress import Telling, chosen_threads
 from unripple._report import Report
+from unripple._typed import typed
 from unripple._values import NOTHING
 
 _Done = TypeVar("_Done")
@@ -35,6 +36,8 @@ class Call:
 
     def __init__(self, command: str, options: Mapping[str, object]) -> None:
         given = {name: value for name, value in options.items() if value is not None}
+        #: What was typed, by the names of options.
+        self.typed = dict(given)
         self.command = command
         self.threads = chosen_threads(given.pop("threads", None))
         self.telling = Telling(given.pop("progress", None))
@@ -125,15 +128,27 @@ class Call:
         return self.command == "play" and lasts == (None, None)
 
     def perform(self, work: Callable[[Telling, int | None], _Done]) -> _Done:
-        """Do the work of a call, with its progress; an error about a field names the option that set it."""
+        """Do the work of a call, with its progress; an error about a field names the option that set it, or that sets it."""
         try:
             with self.telling as telling:
                 return work(telling, self.threads)
-        except AskError as error:
-            for field, name in self.set_by.items():
-                if error.field == field.rpartition(".")[2] != name:
-                    error.add_note(f"{error.field} was set by {name}")
-            raise
+        except UnrippleError as error:
+            told = typed(error, self._names(), self.typed)
+            if told is error:
+                raise
+            raise told from None
+
+    def _names(self) -> dict[str, str]:
+        """Return the options by the fields that errors name: those that were typed, else the first that sets a field."""
+        found: dict[str, str] = {}
+        for option in _options.OPTIONS.get(self.command, ()):
+            found.setdefault(option.field.rpartition(".")[2], option.name)
+        for field, name in self.set_by.items():
+            found[field.rpartition(".")[2]] = name
+        # A level is one of several options, and errors name the kind.
+        level = self.set_by.get("level")
+        found["peak_m"] = level if level in ("peak_um", "peak_m") else "peak_um"
+        return found
 
 
 def focusing(options: Mapping[str, object]) -> str:

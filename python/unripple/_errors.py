@@ -50,9 +50,10 @@ class AskError(UnrippleError, ValueError):
     Parameters
     ----------
     field
-        Name of the option, or of the field of the ask, which is in SI units (``window_s`` where ``window_ms`` was given).
+        Name of the option or argument as it was given, such as ``window_ms``; of several, with commas between them.
     expected, found
-        What is accepted, and what was found.
+        What is accepted, in SI units, and what was found: the value as it was given, and behind it in brackets in SI units, where these
+        differ.
 
     Examples
     --------

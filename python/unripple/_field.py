@@ -13,6 +13,7 @@ from unripple._drive import given
 from unripple._errors import OptionError
 from unripple._motion import MOST_VALUES, UNITS, Snapshots, Traces, instants, span
 from unripple._report import Report
+from unripple._typed import Typed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -254,7 +255,8 @@ class Field:
         """
         points = np.asarray(_values.places("points_mm", points_mm), dtype=np.float64).reshape(-1, 2)
         until = self._span()[1] / self.rate_hz if until_ms is None else _values.milli("until_ms", until_ms)
-        velocity, displacement = self._raw.traces(points, until)
+        with Typed(points_m=("points_mm", points_mm), until_s=("until_ms", until_ms)):
+            velocity, displacement = self._raw.traces(points, until)
         return Traces(np.arange(velocity.shape[1]) / self.rate_hz, velocity, displacement, points)
 
     def maps(self) -> xr.Dataset:

@@ -1,4 +1,4 @@
-"""The motion of a surface at some instants, and of some places over time."""
+"""The motion of a surface at some instants, of some places over time, and of a finger."""
 
 from __future__ import annotations
 
@@ -100,6 +100,37 @@ class Traces(NamedTuple):
             for name, values in both.items()
         }
         return _labels.dataset(named)
+
+
+class FingerMotion(NamedTuple):
+    """Motion of a finger on a simulated surface after a block.
+
+    Attributes
+    ----------
+    grip
+        How far it is in contact, 0 to 1.
+    force_n
+        Force on it in N.
+    velocity_m_s
+        Velocity of the sheet under it in m/s.
+    displacement_m
+        Displacement of the finger in m.
+    power_w
+        Mean power into it over the block in W.
+
+    Examples
+    --------
+    >>> import unripple as ur
+    >>> virtual = ur.Surface("hudin-2012", band_hz=[0, 500]).virtual()
+    >>> virtual.finger_motion(0) is None
+    True
+    """
+
+    grip: float
+    force_n: float
+    velocity_m_s: float
+    displacement_m: float
+    power_w: float
 
 
 def span(report: Report, known: int, rate_hz: float) -> tuple[int, int]:

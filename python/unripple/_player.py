@@ -10,6 +10,7 @@ import numpy.typing as npt
 from unripple import _unripple, _values
 from unripple._report import Report
 from unripple._surface import Surface
+from unripple._typed import Typed
 from unripple._virtual import _place
 
 if TYPE_CHECKING:
@@ -101,14 +102,15 @@ class Player:
         full_limit: bool = False,
     ) -> None:
         played = surface if isinstance(surface, Surface) else Surface(surface)
-        self._raw = _unripple.Player(
-            played._raw,
-            _values.path("effect", effect),
-            _values.text("method", method).replace("_", "-"),
-            None if window_ms is None else _values.milli("window_ms", window_ms),
-            _values.count("block", block),
-            _values.flag("full_limit", full_limit),
-        )
+        with Typed(window_s=("window_ms", window_ms)):
+            self._raw = _unripple.Player(
+                played._raw,
+                _values.path("effect", effect),
+                _values.text("method", method).replace("_", "-"),
+                None if window_ms is None else _values.milli("window_ms", window_ms),
+                _values.count("block", block),
+                _values.flag("full_limit", full_limit),
+            )
 
     @property
     def names(self) -> list[str]:
@@ -162,7 +164,8 @@ class Player:
         >>> player = ur.Surface("hudin-2012", band_hz=[0, 500]).player(window_ms=20)
         >>> player.down(0, (62, 90), time_s=0.1)
         """
-        self._raw.down(_values.count("finger", finger), _place("at_mm", at_mm), *_when(time_s, force_n))
+        with Typed(at_m=("at_mm", at_mm)):
+            self._raw.down(_values.count("finger", finger), _place("at_mm", at_mm), *_when(time_s, force_n))
 
     def move(
         self, finger: int, at_mm: _types.Row, time_s: float | None = None, *, force_n: float | None = None
@@ -181,7 +184,8 @@ class Player:
         >>> player.down(0, (62, 90))
         >>> player.move(0, (64, 90), time_s=0.01)
         """
-        self._raw.move(_values.count("finger", finger), _place("at_mm", at_mm), *_when(time_s, force_n))
+        with Typed(at_m=("at_mm", at_mm)):
+            self._raw.move(_values.count("finger", finger), _place("at_mm", at_mm), *_when(time_s, force_n))
 
     def up(self, finger: int, time_s: float | None = None) -> None:
         """Lift a finger where it was last.

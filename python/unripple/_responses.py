@@ -14,6 +14,7 @@ from unripple._errors import AskError, InputError, OptionError
 from unripple._focusing import Focusing
 from unripple._progress import Telling, chosen_threads
 from unripple._surface import Surface
+from unripple._typed import Typed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -92,7 +93,7 @@ class Responses(Focusing):
         top = None if max_hz is None else _values.number("max_hz", max_hz)
         fingers = [(x, y) for x, y in fingers_m]
         threads = chosen_threads(options.get("threads"))
-        with Telling(options.get("progress")) as telling:
+        with Telling(options.get("progress")) as telling, Typed(fingers_m=("fingers_mm", fingers_m)):
             raw = _unripple.Responses.of_surface(surface._raw, top, fingers, telling, threads)
         plain = top is None and not fingers
         return cls._of(raw, (_of_surface_again, (surface, top, fingers_m)), surface if plain else None)
@@ -157,7 +158,12 @@ class Responses(Focusing):
             "actuators_m": _metres("actuators_mm", actuators_mm),
             "scaled": _values.flag("scaled", scaled),
         }
-        return cls._of_array(values, {**known, **_of_waves(band_hz, lambda_min_mm, surface)})
+        with Typed(
+            points_m=("points_mm", points_mm),
+            actuators_m=("actuators_mm", actuators_mm),
+            lambda_min_m=("lambda_min_mm", lambda_min_mm),
+        ):
+            return cls._of_array(values, {**known, **_of_waves(band_hz, lambda_min_mm, surface)})
 
     @classmethod
     def _of_array(cls, h: npt.NDArray[Any], known: dict[str, Any]) -> Responses:
@@ -264,7 +270,9 @@ class Responses(Focusing):
         >>> responses.impulse((62, 90), length_ms=5).shape
         (1, 8, 241)
         """
-        return self._raw.impulse(_metres("points_mm", points_mm), _values.milli("length_ms", length_ms))
+        points, length = _metres("points_mm", points_mm), _values.milli("length_ms", length_ms)
+        with Typed(points_m=("points_mm", points_mm), length_s=("length_ms", length_ms)):
+            return self._raw.impulse(points, length)
 
     def to_xarray(self) -> xr.Dataset:
         """Return them with labels.

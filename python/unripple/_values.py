@@ -46,6 +46,13 @@ def number(name: str, value: object) -> float:
     return found
 
 
+def is_number(value: object) -> bool:
+    """Tell whether a value is one number."""
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
+    return isinstance(value, numbers.Real) and not isinstance(value, (bool, np.bool_))
+
+
 def milli(name: str, value: object) -> float:
     """Return a number of thousandths, such as mm or ms, as one of wholes."""
     return number(name, value) / 1e3

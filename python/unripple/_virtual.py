@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,9 @@ import numpy.typing as npt
 from unripple import _unripple, _values
 from unripple._drive import Drive, floats, refuse_other
 from unripple._errors import OptionError
+from unripple._motion import FingerMotion
 from unripple._surface import Surface
+from unripple._typed import Typed
 
 if TYPE_CHECKING:
     from unripple import _types
@@ -24,37 +26,6 @@ _CONTACT = {
     "stiffness_n_per_mm": 1e-3,
     "contact_radius_mm": 1e3,
 }
-
-
-class FingerMotion(NamedTuple):
-    """Motion of a finger on a simulated surface after a block.
-
-    Attributes
-    ----------
-    grip
-        How far it is in contact, 0 to 1.
-    force_n
-        Force on it in N.
-    velocity_m_s
-        Velocity of the sheet under it in m/s.
-    displacement_m
-        Displacement of the finger in m.
-    power_w
-        Mean power into it over the block in W.
-
-    Examples
-    --------
-    >>> import unripple as ur
-    >>> virtual = ur.Surface("hudin-2012", band_hz=[0, 500]).virtual()
-    >>> virtual.finger_motion(0) is None
-    True
-    """
-
-    grip: float
-    force_n: float
-    velocity_m_s: float
-    displacement_m: float
-    power_w: float
 
 
 class VirtualSurface:
@@ -113,14 +84,15 @@ class VirtualSurface:
         fingers: int | None = None,
     ) -> None:
         self._surface = surface if isinstance(surface, Surface) else Surface(surface)
-        self._raw = _unripple.VirtualSurface(
-            self._surface._raw,
-            _values.count("block", block),
-            max_hz=None if max_hz is None else _values.number("max_hz", max_hz),
-            seed=None if unknowns is None else _values.count("unknowns", unknowns),
-            probe_m=None if probe_mm is None else _place("probe_mm", probe_mm),
-            fingers=None if fingers is None else _values.count("fingers", fingers),
-        )
+        with Typed(probe_m=("probe_mm", probe_mm), seed=("unknowns", unknowns)):
+            self._raw = _unripple.VirtualSurface(
+                self._surface._raw,
+                _values.count("block", block),
+                max_hz=None if max_hz is None else _values.number("max_hz", max_hz),
+                seed=None if unknowns is None else _values.count("unknowns", unknowns),
+                probe_m=None if probe_mm is None else _place("probe_mm", probe_mm),
+                fingers=None if fingers is None else _values.count("fingers", fingers),
+            )
 
     @property
     def names(self) -> list[str]:
@@ -217,7 +189,8 @@ class VirtualSurface:
         >>> virtual.lift(0)
         """
         like = None if contact is None else _contact(contact, self._surface)
-        self._raw.touch(_values.count("finger", finger), _place("at_mm", at_mm), like)
+        with Typed(at_m=("at_mm", at_mm), id=("finger", finger)):
+            self._raw.touch(_values.count("finger", finger), _place("at_mm", at_mm), like)
 
     def move(self, finger: int, at_mm: _types.Row) -> None:
         """Move a finger that is down, whose load is at the new place within 5 ms.
@@ -236,7 +209,8 @@ class VirtualSurface:
         >>> virtual.touch(0, (62, 90))
         >>> virtual.move(0, (64, 90))
         """
-        self._raw.move(_values.count("finger", finger), _place("at_mm", at_mm))
+        with Typed(at_m=("at_mm", at_mm), id=("finger", finger)):
+            self._raw.move(_values.count("finger", finger), _place("at_mm", at_mm))
 
     def lift(self, finger: int) -> None:
         """Lift a finger, whose load goes within 8 ms; its number is free at once.
@@ -293,7 +267,8 @@ class VirtualSurface:
         >>> import unripple as ur
         >>> ur.Surface("hudin-2012", band_hz=[0, 500]).virtual().probe((62, 90))
         """
-        self._raw.probe(_place("at_mm", at_mm))
+        with Typed(at_m=("at_mm", at_mm)):
+            self._raw.probe(_place("at_mm", at_mm))
 
     def tap(self, at_mm: _types.Row, newtons: float, seconds: float, after_s: float = 0.0) -> None:
         """Tap at a place with half a sine of force.
@@ -318,7 +293,8 @@ class VirtualSurface:
         >>> ur.Surface("hudin-2012", band_hz=[0, 500]).virtual().tap((62, 90), newtons=1, seconds=1e-3)
         """
         force, length = _values.number("newtons", newtons), _values.number("seconds", seconds)
-        self._raw.tap(_place("at_mm", at_mm), force, length, _values.number("after_s", after_s))
+        with Typed(at_m=("at_mm", at_mm)):
+            self._raw.tap(_place("at_mm", at_mm), force, length, _values.number("after_s", after_s))
 
     def watch(self, points_mm: _types.Places, stride: int = 1) -> None:
         """Watch the displacement at some places, in place of those before: see :meth:`watched`.
@@ -336,7 +312,8 @@ class VirtualSurface:
         >>> ur.Surface("hudin-2012", band_hz=[0, 500]).virtual().watch([(62, 90), (40, 50)])
         """
         points = np.array(_values.places("points_mm", points_mm), dtype=np.float64).reshape(-1, 2)
-        self._raw.watch(points, _values.count("stride", stride))
+        with Typed(points_m=("points_mm", points_mm)):
+            self._raw.watch(points, _values.count("stride", stride))
 
     def watched(self) -> npt.NDArray[np.float32]:
         """Return the displacement at the watched places since this was last called.
