@@ -86,4 +86,8 @@ def test_lines_go_to_the_log(film: ur.Surface, folder: Path, caplog: pytest.LogC
 def test_lists_of_names() -> None:
     assert "hudin-2012" in ur.builtin() and "click-button" in ur.effects()
     assert "glass" in [material.name for material in ur.materials().materials]
+    for name, known in (("pet", "BoPET"), ("mdf", "MDF"), ("plywood", "plywood")):
+        (material,) = ur.materials(name).materials
+        assert material.name == known and material.source
+        assert ur.Surface("glass-plate", material=name).toml.count(f'material = "{known}"') == 1
     assert ur.__version__.count(".") == 2

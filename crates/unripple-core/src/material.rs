@@ -5,6 +5,8 @@
 pub struct Material {
     /// The name of the material in surface files.
     pub name: &'static str,
+    /// Other names that surface files may use for it.
+    pub aliases: &'static [&'static str],
     /// Young's modulus E, in Pa.
     pub young: f64,
     /// Density ρ, in kg/m³.
@@ -22,6 +24,7 @@ pub struct Material {
 pub const MATERIALS: &[Material] = &[
     Material {
         name: "BoPET",
+        aliases: &["PET", "Mylar"],
         young: 4.0e9,
         density: 1400.0,
         poisson: 0.3,
@@ -30,6 +33,7 @@ pub const MATERIALS: &[Material] = &[
     },
     Material {
         name: "glass",
+        aliases: &[],
         young: 69.0e9,
         density: 2300.0,
         poisson: 0.22,
@@ -38,6 +42,7 @@ pub const MATERIALS: &[Material] = &[
     },
     Material {
         name: "soda-lime glass",
+        aliases: &[],
         young: 72.0e9,
         density: 2500.0,
         poisson: 0.22,
@@ -46,6 +51,7 @@ pub const MATERIALS: &[Material] = &[
     },
     Material {
         name: "strengthened glass",
+        aliases: &[],
         young: 70.0e9,
         density: 2440.0,
         poisson: 0.22,
@@ -54,6 +60,7 @@ pub const MATERIALS: &[Material] = &[
     },
     Material {
         name: "polycarbonate",
+        aliases: &[],
         young: 2.35e9,
         density: 1200.0,
         poisson: 0.37,
@@ -62,6 +69,7 @@ pub const MATERIALS: &[Material] = &[
     },
     Material {
         name: "PMMA",
+        aliases: &["acrylic"],
         young: 3.1e9,
         density: 1190.0,
         poisson: 0.37,
@@ -70,6 +78,7 @@ pub const MATERIALS: &[Material] = &[
     },
     Material {
         name: "polyimide",
+        aliases: &["Kapton"],
         young: 2.5e9,
         density: 1420.0,
         poisson: 0.34,
@@ -78,6 +87,7 @@ pub const MATERIALS: &[Material] = &[
     },
     Material {
         name: "aluminium",
+        aliases: &["aluminum"],
         young: 69.0e9,
         density: 2700.0,
         poisson: 0.33,
@@ -86,11 +96,30 @@ pub const MATERIALS: &[Material] = &[
     },
     Material {
         name: "steel",
+        aliases: &[],
         young: 200.0e9,
         density: 7900.0,
         poisson: 0.29,
         strength: 250e6,
         source: "austenitic stainless steel 1.4301 (EN 10088-1: 200 GPa, 7900 kg/m³), of which bars have a 0.2 % proof stress of at least 190 MPa (EN 10088-3), strip more; Poisson's ratio typical, no single source",
+    },
+    Material {
+        name: "MDF",
+        aliases: &[],
+        young: 3.6e9,
+        density: 750.0,
+        poisson: 0.25,
+        strength: 36e6,
+        source: "USDA Forest Products Laboratory, Wood Handbook (FPL-GTR-190, 2010), table 12-1, in bending, which gives 3.59 GPa, 35.9 MPa and a specific gravity of 0.7 to 0.9; density within these and Poisson's ratio typical, no single source; boards of low density have 2.5 GPa and less",
+    },
+    Material {
+        name: "plywood",
+        aliases: &[],
+        young: 7.8e9,
+        density: 550.0,
+        poisson: 0.1,
+        strength: 38e6,
+        source: "USDA Forest Products Laboratory, Wood Handbook (FPL-GTR-190, 2010), table 12-1, in bending along the grain of the faces, which gives 6.96 to 8.55 GPa, 33.7 to 42.6 MPa and a specific gravity of 0.4 to 0.6; Poisson's ratio typical of crossed veneers, no single source; across that grain and in shear it is softer (0.6 to 0.75 GPa in shear)",
     },
 ];
 
@@ -100,8 +129,31 @@ impl Material {
         MATERIALS.iter().map(|material| material.name).collect()
     }
 
-    /// The built-in material of that name, whatever the case of its letters; `None` if there is none.
+    /// The built-in material of that name, or with that alias, whatever the case of its letters; `None` if there is none.
     pub fn named(name: &str) -> Option<&'static Self> {
-        MATERIALS.iter().find(|m| m.name.eq_ignore_ascii_case(name))
+        let called = |known: &&str| known.eq_ignore_ascii_case(name);
+        MATERIALS.iter().find(|m| called(&m.name) || m.aliases.iter().any(|alias| called(alias)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_or_alias_is_that_of_one_material() {
+        let mut seen = Vec::new();
+        for material in MATERIALS {
+            for name in std::iter::once(&material.name).chain(material.aliases) {
+                assert_eq!(Material::named(&name.to_uppercase()), Some(material), "{name}");
+                seen.push(name.to_lowercase());
+            }
+        }
+        let all = seen.len();
+        seen.sort();
+        seen.dedup();
+        assert_eq!(seen.len(), all, "a name stands for two materials");
+        assert_eq!(Material::named("pet").map(|m| m.name), Some("BoPET"));
+        assert!(Material::named("mdf").is_some() && Material::named("plywood").is_some());
     }
 }

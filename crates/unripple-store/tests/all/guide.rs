@@ -111,7 +111,9 @@ fn keys_are_those_of_the_reader() {
 #[test]
 fn names_of_materials() {
     for material in unripple_core::MATERIALS {
-        assert!(GUIDE.contains(material.name), "{}", material.name);
+        for name in std::iter::once(&material.name).chain(material.aliases) {
+            assert!(GUIDE.contains(name), "{name}");
+        }
     }
     for builtin in unripple_store::BUILTINS {
         assert!(GUIDE.contains(builtin.name), "{}", builtin.name);

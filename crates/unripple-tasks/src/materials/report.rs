@@ -17,6 +17,8 @@ pub struct Report {
 pub struct MaterialRow {
     /// Name of the material in surface files.
     pub name: &'static str,
+    /// Other names that surface files may use for it.
+    pub aliases: &'static [&'static str],
     /// Young's modulus, in Pa.
     pub young_pa: f64,
     /// Density, in kg/m³.
@@ -39,6 +41,7 @@ impl Report {
     pub(super) fn of(materials: impl IntoIterator<Item = &'static Material>) -> Self {
         let row = |material: &Material| MaterialRow {
             name: material.name,
+            aliases: material.aliases,
             young_pa: material.young,
             density_kg_m3: material.density,
             poisson_ratio: material.poisson,
@@ -58,6 +61,9 @@ impl crate::Report for Report {
             let (young, strength) = (row.young_pa / 1e9, row.strength_pa / 1e6);
             let (density, poisson) = (row.density_kg_m3, row.poisson_ratio);
             let _ = writeln!(text, "{:<18} {young:>6} {density:>7} {poisson:>8} {strength:>6}", row.name);
+            if !row.aliases.is_empty() {
+                let _ = writeln!(text, "{INDENT}also called {}", row.aliases.join(", "));
+            }
             let _ = writeln!(text, "{}", textwrap::fill(row.source, &within));
         }
         text

@@ -31,6 +31,7 @@ fn sheet(surface: &mut Surface, edit: &Edit) {
     if let Some(name) = &edit.material {
         sheet.material.clone_from(name);
         if let Some(material) = Material::named(name) {
+            sheet.material = material.name.into();
             sheet.young = material.young;
             sheet.density = material.density;
             sheet.poisson = material.poisson;
