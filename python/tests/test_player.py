@@ -124,12 +124,15 @@ def test_a_player_reports_what_was_played_and_felt(film: ur.Surface) -> None:
     assert playing.felt() == []
     playing.down(9, PLACE, force_n=0.5)
     playing.step(math.ceil(0.25 * RATE / BLOCK))
-    ((touch, place, level, contrast),) = playing.felt()
+    ((touch, place, level, contrast, time),) = playing.felt()
     assert touch == 1 and place == pytest.approx(PLACE) and level > 0 and contrast > 0
+    # The first look is at the first block that ends after 0.2 s.
+    assert 0.2 <= time < 0.2 + 2 * BLOCK / RATE
     playing.up(9)
     playing.step(1)
     report = json.loads(playing.report())
-    # A click for the press, and a softer one for the release.
+    # Put down and lifted; a click for the press, and a softer one for the release.
+    assert report["fingers_down"] == 1
     assert (report["touches"], report["refused_touches"], report["cues"]) == (2, 0, 2)
     assert report["seconds"] == playing.time_s and report["felt"]["looks"] == 1
     assert json.loads(playing.done.json) == report

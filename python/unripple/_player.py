@@ -30,6 +30,8 @@ class Felt(NamedTuple):
         Level in dB above the threshold of touch; None if it felt nothing.
     contrast
         Contrast of what it felt; None if it felt nothing.
+    time_s
+        Time of the look, in s: it felt this since the look before, 0.2 s earlier.
 
     Examples
     --------
@@ -43,6 +45,7 @@ class Felt(NamedTuple):
     at_m: tuple[float, float]
     level_db: float | None
     contrast: float | None
+    time_s: float
 
 
 class Player:
@@ -266,6 +269,8 @@ class Player:
 
     def report(self) -> Report:
         """Return the report on what was played so far, with the keys of the command `play`.
+
+        ``fingers_down`` counts the fingers that were put down, ``touches`` every :meth:`down`, :meth:`move` and :meth:`up`.
 
         Returns
         -------

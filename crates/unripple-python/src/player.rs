@@ -51,8 +51,8 @@ struct Session {
     samples: usize,
 }
 
-/// What one finger felt: number of the touch, place (m), level (dB), contrast.
-type Felt = (u64, (f64, f64), Option<f64>, Option<f64>);
+/// What one finger felt: number of the touch, place (m), level (dB), contrast, and the time until which it felt it (s).
+type Felt = (u64, (f64, f64), Option<f64>, Option<f64>, f64);
 
 #[pymethods]
 impl Player {
@@ -186,11 +186,12 @@ impl Player {
 
     /// What fingers felt of the simulated surface, at the last of the looks that are made every 0.2 s of played time: for each touch its
     /// number, counted from 1 in the order of coming, its place (x and y in metres), the level in dB above the threshold of touch (None: it
-    /// felt nothing), and the contrast (None: it felt nothing).
+    /// felt nothing), the contrast (None: it felt nothing), and the time of the look in seconds, up to which it felt this since the look before.
     fn felt(&self, py: Python<'_>) -> PyResult<Vec<Felt>> {
         brief(py, || {
-            let felt = self.session().stepped.feelings().to_vec();
-            Ok(felt.iter().map(|f| (f.finger, (f.at.x, f.at.y), f.level_db, f.contrast)).collect())
+            let session = self.session();
+            let (felt, until) = (session.stepped.feelings(), session.stepped.felt_at());
+            Ok(felt.iter().map(|f| (f.finger, (f.at.x, f.at.y), f.level_db, f.contrast, until)).collect())
         })
     }
 

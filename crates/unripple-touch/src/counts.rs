@@ -7,8 +7,10 @@ use std::ops::Add;
 pub struct Counts {
     /// Packets, messages or events that came in, good and bad.
     pub packets: u64,
-    /// Touches handed on.
+    /// Touches handed on: fingers put down, moved and lifted.
     pub touches: u64,
+    /// Fingers put down, among these touches.
+    pub downs: u64,
     /// Requests for an effect or a level ([`Wish`](crate::Wish)) handed on.
     pub wishes: u64,
     /// Senders seen: addresses, connections.
@@ -51,6 +53,7 @@ impl Add for Counts {
         Self {
             packets: self.packets + other.packets,
             touches: self.touches + other.touches,
+            downs: self.downs + other.downs,
             wishes: self.wishes + other.wishes,
             senders: self.senders + other.senders,
             malformed: self.malformed + other.malformed,

@@ -230,6 +230,7 @@ impl Fingers {
         let Live { finger, at, force, .. } = live;
         heard.touches.push(Touch { finger, phase, at, time: self.now, force });
         self.counts.touches += 1;
+        self.counts.downs += u64::from(phase == Phase::Down);
     }
 
     /// Whether the finger with this key is down.

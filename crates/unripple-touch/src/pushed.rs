@@ -177,7 +177,9 @@ impl Source for Pushed {
         let mut queue = lock(&self.queue);
         queue.now = queue.now.max(now);
         let due = queue.waiting.partition_point(|touch| touch.time <= now).min(MOST);
+        let downs = queue.waiting.iter().take(due).filter(|touch| touch.phase == Phase::Down).count();
         queue.counts.touches += due as u64;
+        queue.counts.downs += downs as u64;
         heard.touches.extend(queue.waiting.drain(..due));
     }
 

@@ -132,6 +132,7 @@ impl Synthetic {
         for hand in &mut hands {
             if let Some(touch) = self.act(hand, time) {
                 self.counts.touches += 1;
+                self.counts.downs += u64::from(touch.phase == Phase::Down);
                 heard.touches.push(touch);
             }
         }

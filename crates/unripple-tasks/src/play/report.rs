@@ -22,6 +22,7 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     full_level_db: Option<f64>,
     seconds: f64,
+    fingers_down: u64,
     touches: u64,
     refused_touches: u64,
     cues: u64,
@@ -219,7 +220,7 @@ impl Report {
         let stage = engine.stage();
         self.tells_feelings = stage.tells_feelings();
         let counts = stage.counts();
-        self.touches = counts.touches;
+        (self.fingers_down, self.touches) = (counts.downs, counts.touches);
         self.refused_touches = counts.errors();
         self.seconds = stage.time();
         self.computing_s = Four::of(stage.computing());
@@ -287,8 +288,8 @@ impl Felt {
 impl crate::Report for Report {
     fn text(&self) -> String {
         let mut text = format!(
-            "{}: {:.1} s played, {} touches, {} cues, {} drives made\n",
-            self.surface, self.seconds, self.touches, self.cues, self.drives_made
+            "{}: {:.1} s played, {} fingers put down in {} touch events, {} cues, {} drives made\n",
+            self.surface, self.seconds, self.fingers_down, self.touches, self.cues, self.drives_made
         );
         let _ = writeln!(text, "{}", self.window);
         text += &self.felt.text(self.tells_feelings, self.without_scale);

@@ -103,6 +103,11 @@ impl Stepped {
         &self.report.feelings
     }
 
+    /// Time of that look, in s: what was felt was felt in the 0.2 s before it, or since the look before it; 0 before the first.
+    pub fn felt_at(&self) -> f64 {
+        self.told
+    }
+
     /// Report on what was played and felt so far.
     pub fn report(&mut self) -> Report {
         self.report.clone().finish(&mut self.engine)

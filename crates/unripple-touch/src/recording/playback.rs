@@ -73,6 +73,7 @@ impl Playback {
                 }
                 heard.touches.push(touch);
                 self.counts.touches += 1;
+                self.counts.downs += u64::from(touch.phase == Phase::Down);
             }
         }
     }
