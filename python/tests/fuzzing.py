@@ -31,9 +31,9 @@ from unripple import _options, _unripple
 #: Longest time of a call in s; what takes longer is interrupted as by Ctrl+C.
 PATIENCE = 0.3
 
-#: Calls that are left out: those that open a browser, those that ask sound servers, which other tests stop and start, and the class of
-#: reports, which tasks make.
-LEFT_OUT = {"view", "View", "devices", "doctor", "Report"}
+#: Calls that are left out: those that open a browser, those that ask sound servers, which other tests stop and start, the class of reports,
+#: which tasks make, and what every tuple has.
+LEFT_OUT = {"view", "View", "devices", "doctor", "Report", "count", "index"}
 
 #: Options that would reach for devices, and for ports at which other tests listen.
 NEVER = {"device", "jack_client", "jack_server", "card", "capture_card", "screen", "tuio", "websocket", "listen"}
@@ -147,6 +147,8 @@ def things(values: Values) -> dict[str, Any]:
         "responses": film.responses(),
         "own": own,
         "field": film.field(drive),
+        "traces": film.field(drive).traces((62, 90)),
+        "animation": film.field(drive).animation(frames=2),
         "virtual": film.virtual(block=16),
         "player": film.player(window_ms=10),
     }

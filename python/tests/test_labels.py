@@ -104,6 +104,45 @@ def test_a_library_is_evaluated_at_its_points(library: Path) -> None:
     assert field.velocity.shape[1] == len(field.points_m)
 
 
+def test_what_has_no_scale_has_no_unit(film: ur.Surface) -> None:
+    points = [(40, 50), (62, 90), (100, 110)]
+    known = {
+        "rate_hz": film.rate_hz,
+        "points_mm": points,
+        "actuators_mm": 1e3 * film.actuators_m,
+        "names": film.names,
+        "surface": film,
+    }
+    h = film.responses().impulse(points, length_ms=60)
+    for scaled, units in ((False, ["arbitrary unit"] * 2), (True, ["m/s", "m"])):
+        responses = ur.Responses.from_numpy(h, **known, scaled=scaled)
+        field = responses.field(responses.focus([(62, 90)], window_ms=25))
+        assert field.scaled is scaled
+        maps, traces = field.maps(), field.traces(points[:2])
+        for velocity, displacement in (
+            (field.velocity, field.displacement),
+            (field.velocity_at(0.01), field.displacement_at(0.01)),
+            (maps.peak_velocity, maps.peak_displacement),
+            (traces.to_xarray().velocity, traces.to_xarray().displacement),
+        ):
+            assert [velocity.attrs["units"], displacement.attrs["units"]] == units
+        # With a prefix, where there is one to have.
+        label = field.plot().figure.axes[-1].get_ylabel()
+        assert ("arbitrary unit" in label) is not scaled and ("m/s" in label) is scaled
+        assert isinstance(traces, ur.Traces) and len(traces) == 4
+
+
+def test_labelled_arrays_are_nobody_elses(field: ur.Field) -> None:
+    first = field.velocity
+    assert np.shares_memory(first.values, field.velocity.values)
+    first.attrs["units"] = "km/h"
+    first.values.shape = (-1,)
+    assert field.velocity.attrs["units"] == "m/s" and field.velocity.dims == ("time", "y", "x")
+    assert field.velocity.values.ndim == 3
+    with pytest.raises(ValueError):
+        field.velocity.values[0, 0, 0] = 1.0
+
+
 def test_a_library_opens_without_us(library: Path) -> None:
     opened = xr.open_zarr(library, consolidated=False, chunks=None)
     stored = ur.open(library)

@@ -1,6 +1,7 @@
 """Waves that meet under a fingertip: design, simulate, measure, focus and play a reverberant touch surface."""
 
 from unripple import _unripple
+from unripple._animation import Animation
 from unripple._drive import Drive
 from unripple._drives import field, focus, stroke, waveform
 from unripple._errors import (
@@ -28,6 +29,7 @@ from unripple._view import View
 from unripple._virtual import VirtualSurface
 
 __all__ = [
+    "Animation",
     "AskError",
     "Cancelled",
     "Drive",

@@ -278,6 +278,11 @@ class Drive:
 
         return _html.drive(self)
 
+    def _repr_png_(self) -> bytes | None:
+        from unripple import _png
+
+        return _png.of_figures(self.figures, ("drive",), self.plot)
+
 
 def _again(
     samples: npt.NDArray[np.float64],

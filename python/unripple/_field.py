@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 import numpy as np
 import numpy.typing as npt
 
-from unripple import _progress, _unripple, _values
+from unripple import _series, _unripple, _values
 from unripple._drive import given
 from unripple._errors import OptionError
-from unripple._motion import MOST_VALUES, UNITS, Snapshots, Traces, instants, span
+from unripple._motion import Snapshots, Traces, UnscaledTraces
+from unripple._progress import ProgressCallback, Telling
 from unripple._report import Report
 from unripple._typed import Typed
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from unripple import _types
+    from unripple._animation import Animation
     from unripple._surface import Surface
 
 _Quantity = Literal["velocity", "displacement"]
@@ -34,6 +35,7 @@ class Field:
     Attributes
     ----------
     report : Report
+    scaled : bool
     velocity, displacement : xarray.DataArray
     points_m : numpy.ndarray
     peak_velocity, peak_displacement : numpy.ndarray
@@ -102,6 +104,11 @@ class Field:
         return self._raw.known
 
     @property
+    def scaled(self) -> bool:
+        """Whether velocities are in m/s and displacements in m; otherwise they are known but for a factor."""
+        return self._raw.scaled
+
+    @property
     def peak_velocity(self) -> npt.NDArray[np.float32]:
         """Largest magnitude of the velocity at each point over the span evaluated, in m/s."""
         return self._raw.peak_velocity
@@ -135,12 +142,12 @@ class Field:
         It is computed when it is first asked for, over the span that the report evaluates. If that is more than about 20 million values,
         instants are left out evenly around the focal ones, which `attrs["every"]` and a warning say: see :meth:`velocity_at`.
         """
-        return self._labelled_series("velocity")
+        return _series.labelled(self, "velocity")
 
     @property
     def displacement(self) -> xr.DataArray:
         """Displacement in m, as :attr:`velocity`."""
-        return self._labelled_series("displacement")
+        return _series.labelled(self, "displacement")
 
     def velocity_at(self, times: _types.Times) -> xr.DataArray:
         """Return the velocity at instants of one's own.
@@ -170,7 +177,7 @@ class Field:
         >>> field.velocity_at([0.02, 0.03]).sizes["time"]
         2
         """
-        return self._labelled_of(self.snapshots(times), "velocity")
+        return _series.at(self, self.snapshots(times), "velocity")
 
     def displacement_at(self, times: _types.Times) -> xr.DataArray:
         """Return the displacement at instants of one's own, in m, as :meth:`velocity_at`.
@@ -192,7 +199,7 @@ class Field:
         >>> field.displacement_at(0.03).attrs["units"]
         'm'
         """
-        return self._labelled_of(self.snapshots(times), "displacement")
+        return _series.at(self, self.snapshots(times), "displacement")
 
     def snapshots(self, times: _types.Times) -> Snapshots:
         """Return velocity and displacement of all points at some instants.
@@ -254,10 +261,11 @@ class Field:
         1
         """
         points = np.asarray(_values.places("points_mm", points_mm), dtype=np.float64).reshape(-1, 2)
-        until = self._span()[1] / self.rate_hz if until_ms is None else _values.milli("until_ms", until_ms)
+        until = _series.end_s(self) if until_ms is None else _values.milli("until_ms", until_ms)
         with Typed(points_m=("points_mm", points_mm), until_s=("until_ms", until_ms)):
             velocity, displacement = self._raw.traces(points, until)
-        return Traces(np.arange(velocity.shape[1]) / self.rate_hz, velocity, displacement, points)
+        traces = Traces if self.scaled else UnscaledTraces
+        return traces(np.arange(velocity.shape[1]) / self.rate_hz, velocity, displacement, points)
 
     def maps(self) -> xr.Dataset:
         """Return the maps over the surface: what is largest over the span evaluated.
@@ -281,22 +289,7 @@ class Field:
         >>> field.maps().peak_velocity.dims
         ('y', 'x')
         """
-        from unripple import _labels
-
-        found: dict[str, tuple[npt.NDArray[Any], str]] = {
-            "peak_velocity": (self.peak_velocity, "m/s"),
-            "peak_displacement": (self.peak_displacement, "m"),
-            "outside": (self.outside, ""),
-        }
-        felt = self.felt_db
-        if felt is not None:
-            found["felt"] = (felt, "dB")
-        dims, coords = self._axes()
-        labelled = {
-            name: _labels.array(self._cells(values), dims, coords, name, units)
-            for name, (values, units) in found.items()
-        }
-        return _labels.dataset(labelled, surface=self._surface.name)
+        return _series.maps(self)
 
     def plot(
         self, time: float | None = None, *, quantity: _Quantity = "velocity", ax: Axes | None = None
@@ -331,12 +324,57 @@ class Field:
         """
         from unripple import _plot
 
-        if _values.text("quantity", quantity) not in UNITS:
+        if _values.text("quantity", quantity) not in ("velocity", "displacement"):
             raise OptionError(f"quantity: expected velocity or displacement, found {quantity}")
         return _plot.field(self, time, quantity, ax)
 
+    def animation(
+        self,
+        movie_ms: _types.Row | None = None,
+        *,
+        frames: int = 60,
+        progress: bool | ProgressCallback | None = None,
+    ) -> Animation:
+        """Return the displacement in motion, as the command `field` writes it in its folder.
+
+        Parameters
+        ----------
+        movie_ms
+            Start and end in ms from the drive's first sample; by default from 6 ms before the instant of the first place to 3 ms after.
+        frames
+            Number of frames, 1 to 5000, of which a second shows 15.
+        progress
+            How progress is shown, as for :func:`set_progress`.
+
+        Returns
+        -------
+        Animation
+            An animated PNG, which notebooks show; ``save`` writes it.
+
+        Raises
+        ------
+        AskError
+            Of a span or a number of frames that cannot be.
+        InputError
+            At the points of a library, which are no grid.
+
+        Examples
+        --------
+        >>> import unripple as ur
+        >>> film = ur.Surface("hudin-2012", band_hz=[0, 500])
+        >>> field = film.field(film.focus([(40, 50)], window_ms=30))
+        >>> field.animation((28, 31), frames=3)._repr_html_()[:4]
+        '<img'
+        """
+        from unripple._animation import Animation
+
+        count = _values.count("frames", frames)
+        span = None if movie_ms is None else _values.span_ms("movie_ms", movie_ms)
+        with Typed(movie_s=("movie_ms", movie_ms)), Telling(progress) as telling:
+            return Animation(self._raw.animation(count, span, telling), count)
+
     def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]:
-        return given(self._cells(self._all().velocity), dtype, copy)
+        return given(_series.cells(self, _series.everything(self).velocity), dtype, copy)
 
     def __reduce__(self) -> NoReturn:
         raise TypeError("a field cannot be pickled: keep its surface and its drive")
@@ -351,52 +389,7 @@ class Field:
 
         return _html.field(self)
 
-    def _span(self) -> tuple[int, int]:
-        return span(self._report, self.known, self.rate_hz)
+    def _repr_png_(self) -> bytes | None:
+        from unripple import _png
 
-    def _instants(self) -> tuple[npt.NDArray[np.float64], int]:
-        """Return the instants (s) of the velocity that is computed unasked, and the distance between them in samples."""
-        cells = len(self.points_m) if self.grid is None else self.grid[0] * self.grid[1]
-        return instants(self._report, self._span(), self.rate_hz, cells)
-
-    def _all(self) -> Snapshots:
-        if self._series is None:
-            times, every = self._instants()
-            if every > 1:
-                _progress.warn(
-                    f"the field has every {every}th sample around the focal instants, since it would be larger than "
-                    f"{MOST_VALUES} values (velocity_at gives instants of your own)"
-                )
-            self._series = Snapshots(times, *self._raw.snapshots(times.tolist()))
-        return self._series
-
-    def _labelled_series(self, quantity: _Quantity) -> xr.DataArray:
-        if quantity not in self._labelled:
-            every = self._instants()[1]
-            self._labelled[quantity] = self._labelled_of(self._all(), quantity, every=every)
-        return self._labelled[quantity]
-
-    def _labelled_of(self, series: Snapshots, quantity: _Quantity, **attrs: Any) -> xr.DataArray:
-        from unripple import _labels
-
-        values = series.velocity if quantity == "velocity" else series.displacement
-        dims, coords = self._axes()
-        coords = {"time": series.times_s, **coords}
-        attrs = {"surface": self._surface.name, **attrs}
-        return _labels.array(self._cells(values), ("time", *dims), coords, quantity, UNITS[quantity], **attrs)
-
-    def _axes(self) -> tuple[tuple[str, ...], Mapping[str, Any]]:
-        """Return the dimensions of a map, and its coordinates in m."""
-        from unripple import _labels
-
-        if self.grid is not None:
-            return ("y", "x"), _labels.centres(self.grid)
-        points = self.points_m
-        return ("point",), {"x": ("point", points[:, 0]), "y": ("point", points[:, 1])}
-
-    def _cells(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """Return values of all points on the cells of the grid, NaN outside; on a library as they are."""
-        from unripple import _labels
-
-        inside = self._raw.inside
-        return values if self.grid is None or inside is None else _labels.spread(values, self.grid, inside)
+        return _png.of_figures(self.figures, ("snapshot", "peaks"), lambda ax: self.plot(ax=ax))

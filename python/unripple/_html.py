@@ -65,11 +65,12 @@ def surface(of: Surface) -> str:
         "sample rate": f"{of.rate_hz:g} Hz",
         "limit": f"{of.limit:g}",
     }
-    return table(of.name, rows) + _drawing(of, width, height)
+    return table(of.name, rows) + drawing(of)
 
 
-def _drawing(of: Surface, width: float, height: float) -> str:
+def drawing(of: Surface) -> str:
     """Return the outline and the actuators as SVG, in mm, with y upwards."""
+    width, height = (1e3 * side for side in of.extent_m)
     rims = "".join(f"M{_corners(1e3 * rim)}Z" for rim in of.outline_m)
     dot = max(width, height) / 60
     dots = "".join(
@@ -80,7 +81,9 @@ def _drawing(of: Surface, width: float, height: float) -> str:
     box = f"{-room:g} {-room:g} {width + 2 * room:g} {height + 2 * room:g}"
     rim = f'<path d="{rims}" fill="#e8eef4" fill-rule="evenodd" stroke="#444" stroke-width="{dot / 4:g}"/>'
     turned = f'<g transform="translate(0 {height:g}) scale(1 -1)">{rim}{dots}</g>'
-    return f'<svg xmlns="http://www.w3.org/2000/svg" width="{_WIDTH}" viewBox="{box}">{turned}</svg>'
+    high = _WIDTH * (height + 2 * room) / (width + 2 * room)
+    size = f'width="{_WIDTH}" height="{high:.0f}"'
+    return f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{box}">{turned}</svg>'
 
 
 def _corners(rim: npt.NDArray[np.float64]) -> str:

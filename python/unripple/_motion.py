@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from unripple import _values
+from unripple._errors import OptionError
+
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
 
     from unripple._report import Report
 
@@ -16,8 +20,13 @@ if TYPE_CHECKING:
 #: with every sample. Velocity and displacement are computed together, so both take as much.
 MOST_VALUES = 20_000_000
 
-#: Units of what moves.
-UNITS = {"velocity": "m/s", "displacement": "m"}
+#: What is known but for a factor has no unit of its own.
+UNSCALED = "arbitrary unit"
+
+
+def units(scaled: bool) -> dict[str, str]:
+    """Return the units of velocity and displacement, of responses with a scale or without."""
+    return {"velocity": "m/s", "displacement": "m"} if scaled else {"velocity": UNSCALED, "displacement": UNSCALED}
 
 
 class Snapshots(NamedTuple):
@@ -53,7 +62,7 @@ class Traces(NamedTuple):
     times_s
         Times in s from the drive's first sample.
     velocity, displacement
-        In m/s and m, of shape (places, times).
+        In m/s and m (see ``units``), of shape (places, times).
     points_m
         The places in m, of shape (places, 2).
 
@@ -96,10 +105,64 @@ class Traces(NamedTuple):
         }
         both = {"velocity": self.velocity, "displacement": self.displacement}
         named = {
-            name: _labels.array(values, ("point", "time"), coords, name, UNITS[name])
+            name: _labels.array(values, ("point", "time"), coords, name, self.units[name])
             for name, values in both.items()
         }
         return _labels.dataset(named)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of velocity and displacement."""
+        return units(True)
+
+    def plot(self, quantity: Literal["velocity", "displacement"] = "velocity", ax: Axes | None = None) -> Axes:
+        """Draw the motion of each place against time, one above the other.
+
+        Parameters
+        ----------
+        quantity
+            ``"velocity"`` or ``"displacement"``.
+        ax
+            Axes of matplotlib to draw in; new ones by default.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
+
+        Examples
+        --------
+        >>> import unripple as ur
+        >>> film = ur.Surface("hudin-2012", band_hz=[0, 500])
+        >>> field = film.field(film.focus([(40, 50)], window_ms=30))
+        >>> field.traces([(40, 50)], until_ms=40).plot().get_xlabel()
+        'Time (ms)'
+        """
+        from unripple import _plot
+
+        if _values.text("quantity", quantity) not in self.units:
+            raise OptionError(f"quantity: expected velocity or displacement, found {quantity}")
+        return _plot.traces(self, quantity, ax)
+
+    def _repr_png_(self) -> bytes | None:
+        from unripple import _png
+
+        return _png.of_plot(lambda ax: self.plot(ax=ax))
+
+
+class UnscaledTraces(Traces):
+    """The motion of some places over time, of responses without a scale: known but for a factor."""
+
+    __slots__ = ()
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of velocity and displacement, which nobody knows."""
+        return units(False)
 
 
 class FingerMotion(NamedTuple):

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from unripple import _labels, _values
+from unripple import _labels, _series, _values
 from unripple._errors import OptionError
+from unripple._motion import UNSCALED, units
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from unripple._drive import Drive
     from unripple._field import Field
+    from unripple._motion import Traces
     from unripple._responses import Responses
 
 #: Most actuators that are drawn one above the other: of more none could be told apart.
@@ -36,7 +39,9 @@ def axes(ax: Any) -> Axes:
 
 
 def prefixed(largest: float, unit: str) -> tuple[float, str]:
-    """Return the factor and the unit with a prefix that suit a largest value."""
+    """Return the factor and the unit with a prefix that suit a largest value; what has no unit of its own has no prefix."""
+    if unit == UNSCALED:
+        return 1.0, unit
     powers = [power for power in _PREFIXES if largest >= 10.0**power]
     power = max(powers, default=0 if largest == 0.0 else min(_PREFIXES))
     return 10.0**-power, _PREFIXES[power] + unit
@@ -67,10 +72,11 @@ def field(of: Field, time: float | None, quantity: str, ax: Axes | None) -> Axes
     instant = time if time is not None else targets[0].instant_s if targets else 0.0
     series = of.snapshots(instant)
     values = (series.velocity if quantity == "velocity" else series.displacement)[0].astype(np.float64)
-    factor, unit = prefixed(float(np.abs(values).max(initial=0.0)), "m/s" if quantity == "velocity" else "m")
-    most = float(np.abs(values).max(initial=0.0)) * factor or 1.0
+    largest = float(np.abs(values).max(initial=0.0))
+    factor, unit = prefixed(largest, units(of.scaled)[quantity])
+    most = largest * factor or 1.0
     how: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -most, "vmax": most}
-    cells = of._cells(values * factor)
+    cells = _series.cells(of, values * factor)
     if of.grid is None:
         x, y = 1e3 * of.points_m.T
         picture: Any = drawn.scatter(x, y, c=cells, s=18, **how)
@@ -110,3 +116,53 @@ def responses(of: Responses, ax: Axes | None) -> Axes:
         drawn.set_ylabel("Velocity per unit impulse")
         drawn.set_title(f"Responses at the first point of {of.source}")
     return drawn
+
+
+def traces(of: Traces, quantity: str, ax: Axes | None) -> Axes:
+    """Draw the motion of some places over time, one above the other."""
+    drawn = axes(ax)
+    shown = (of.velocity if quantity == "velocity" else of.displacement)[:_MOST]
+    factor, unit = prefixed(float(np.abs(shown).max(initial=0.0)), of.units[quantity])
+    step = 2.2 * factor * float(np.abs(shown).max(initial=0.0)) or 1.0
+    for lane, values in enumerate(shown):
+        drawn.plot(1e3 * of.times_s, factor * values - lane * step, linewidth=0.8)
+    places = [f"({1e3 * x:.4g}, {1e3 * y:.4g})" for x, y in of.points_m[: len(shown)]]
+    drawn.set_yticks([-lane * step for lane in range(len(shown))], places)
+    drawn.set_xlabel("Time (ms)")
+    drawn.set_ylabel(f"Place (mm), lanes apart by {step:.3g} ({unit})")
+    more = f", first {_MOST} of {len(of.points_m)}" if len(of.points_m) > _MOST else ""
+    drawn.set_title(f"{quantity.capitalize()}{more}")
+    return drawn
+
+
+def curves(data: Mapping[str, Any]) -> Callable[[Axes], None] | None:
+    """Return what draws the curves that a report has: of a design the contrast against the window, of modes their decay; None without curves."""
+    if data.get("contrast_by_window"):
+        return lambda ax: _contrast(data, ax)
+    if data.get("frequencies_hz") and data.get("decay_times_s"):
+        return lambda ax: _decay(data, ax)
+    return None
+
+
+def _contrast(data: Mapping[str, Any], ax: Axes) -> None:
+    """Draw the predicted contrast against the window, a curve for each number of actuators."""
+    rows = data["contrast_by_window"]
+    windows = [1e3 * row["window_s"] for row in rows]
+    for index, actuators in enumerate(data["actuator_counts"]):
+        label = f"{actuators} actuator{'s' if actuators > 1 else ''}"
+        ax.plot(windows, [row["contrast"][index] for row in rows], label=label)
+    ax.axvline(1e3 * data["window_recommended_s"], color="0.5", linewidth=0.8, linestyle=":")
+    ax.legend(fontsize="small")
+    ax.set_xlabel("Window (ms)")
+    ax.set_ylabel("Contrast predicted")
+    ax.set_title(str(data["surface"]))
+
+
+def _decay(data: Mapping[str, Any], ax: Axes) -> None:
+    """Draw the decay time of each mode against its frequency; modes that do not decay are left out."""
+    both = zip(data["frequencies_hz"], data["decay_times_s"], strict=True)
+    found = [(hz, 1e3 * seconds) for hz, seconds in both if seconds is not None]
+    ax.plot([hz for hz, _ in found], [ms for _, ms in found], ".")
+    ax.set_xlabel("Frequency (Hz)")
+    ax.set_ylabel("Decay time (ms)")
+    ax.set_title(f"Modes of {data['surface']}")

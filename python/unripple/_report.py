@@ -151,6 +151,12 @@ class Report(Part):
     def __reduce__(self) -> tuple[Any, ...]:
         return Report, (self._text, self.to_json(), self._failure)
 
+    def _repr_png_(self) -> bytes | None:
+        from unripple import _plot, _png
+
+        draw = _plot.curves(self._data)
+        return None if draw is None else _png.of_plot(draw)
+
     def to_dict(self) -> dict[str, Any]:
         """Return a copy as nested dicts and lists, equal to what ``json.loads`` makes of the command line's ``--json``.
 

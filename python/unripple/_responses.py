@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from unripple import _unripple, _values
+from unripple import _png, _unripple, _values
 from unripple._drive import channel_names, floats, given
 from unripple._errors import AskError, InputError, OptionError
 from unripple._focusing import Focusing
@@ -352,6 +352,9 @@ class Responses(Focusing):
         from unripple import _html
 
         return _html.responses(self)
+
+    def _repr_png_(self) -> bytes | None:
+        return _png.of_plot(self.plot)
 
     def _chosen(self, options: dict[str, Any]) -> Responses:
         if options.get("set") is not None:

@@ -203,6 +203,11 @@ class Surface(Reporting, Focusing):
 
         return _html.surface(self)
 
+    def _repr_png_(self) -> bytes:
+        from unripple import _html, _png
+
+        return _png.of_svg(_html.drawing(self))
+
     def as_ask(self) -> str | dict[str, Any]:
         """Return the surface as asks of tasks name it.
 

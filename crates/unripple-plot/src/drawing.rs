@@ -49,17 +49,7 @@ impl Drawing {
     /// Deterministic: the typeface is embedded and no system font is looked at. Errors when the
     /// resolution is out of range or the picture would have more than 10⁸ pixels.
     pub fn png(&self, dpi: f64) -> Result<Vec<u8>, PlotError> {
-        if !(20.0..=2400.0).contains(&dpi) {
-            let what = "resolution of the picture".to_owned();
-            return Err(PlotError::Range { what, expected: "20 to 2400 dots to an inch", found: dpi });
-        }
-        let pixels = self.size[0] * self.size[1] * (dpi / 72.0).powi(2);
-        if pixels > MOST_PIXELS {
-            let what = "pixels of the picture".to_owned();
-            return Err(PlotError::Range { what, expected: "at most 10⁸", found: pixels });
-        }
-        let pixmap = encode::render(&self.svg, (dpi / 96.0) as f32, Some(Rgb::WHITE))?;
-        encode::opaque(&pixmap, dpi)
+        png(&self.svg, dpi)
     }
 
     /// The figure as a page of PDF, curves as curves and text as outlines, titled by the figure's description.
@@ -89,6 +79,32 @@ impl Drawing {
         let placed = self.placed.get(panel)?;
         Some([&placed.x, &placed.y].map(|ruler| ruler.major.iter().map(|(_, label)| label.clone()).collect()))
     }
+}
+
+/// The picture of an SVG document on white as a PNG file, at a resolution in dots to an inch from 20 to 2400, with the embedded typeface.
+///
+/// ```
+/// let square = r#"<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm"/>"#;
+/// assert_eq!(&unripple_plot::png(square, 100.0)?[1..4], b"PNG");
+/// # Ok::<(), unripple_plot::PlotError>(())
+/// ```
+///
+/// # Errors
+/// [`PlotError::Range`] of another resolution, and of more than 10⁸ pixels; [`PlotError::Image`] of what is no SVG.
+pub fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, PlotError> {
+    if !(20.0..=2400.0).contains(&dpi) {
+        let what = "resolution of the picture".to_owned();
+        return Err(PlotError::Range { what, expected: "20 to 2400 dots to an inch", found: dpi });
+    }
+    let tree = encode::tree(svg)?;
+    // CSS has 96 pixels to an inch.
+    let scale = dpi / 96.0;
+    let pixels = f64::from(tree.size().width()) * f64::from(tree.size().height()) * scale * scale;
+    if pixels > MOST_PIXELS {
+        let what = "pixels of the picture".to_owned();
+        return Err(PlotError::Range { what, expected: "at most 10⁸", found: pixels });
+    }
+    encode::opaque(&encode::rendered(&tree, scale as f32, Some(Rgb::WHITE))?, dpi)
 }
 
 /// Pictures of several drawings, rendered in parallel; see [`Drawing::png`]. `dpi` is in dots to an inch.

@@ -61,14 +61,22 @@ pub(crate) fn tree(svg: &str) -> Result<usvg::Tree, PlotError> {
 
 /// Renders a drawing at a number of pixels for each of its CSS pixels (1/96 inch), over a background if any.
 pub(crate) fn render(svg: &str, scale: f32, background: Option<Rgb>) -> Result<tiny_skia::Pixmap, PlotError> {
-    let tree = tree(svg)?;
+    rendered(&tree(svg)?, scale, background)
+}
+
+/// Renders a drawing that has been read, as [`render`] does.
+pub(crate) fn rendered(
+    tree: &usvg::Tree,
+    scale: f32,
+    background: Option<Rgb>,
+) -> Result<tiny_skia::Pixmap, PlotError> {
     let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
     let mut pixmap = tiny_skia::Pixmap::new(width.round() as u32, height.round() as u32)
         .ok_or_else(|| image_error("rendering the drawing")(&"no memory for its pixels"))?;
     if let Some(Rgb(r, g, b)) = background {
         pixmap.fill(tiny_skia::Color::from_rgba8(r, g, b, 255));
     }
-    resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    resvg::render(tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     Ok(pixmap)
 }
 

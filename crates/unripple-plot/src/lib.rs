@@ -72,7 +72,7 @@ pub use cells::Cells;
 pub use colour::Rgb;
 pub use colourmap::ColourMap;
 pub use colours::Colours;
-pub use drawing::{Drawing, PRINT_DPI, pngs};
+pub use drawing::{Drawing, PRINT_DPI, png, pngs};
 pub use error::PlotError;
 pub use field::{Marker, Symbol};
 pub use figure::Figure;

@@ -7,7 +7,7 @@ use crate::focused::{Draw, drawn};
 use crate::progress::{brief, work};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use std::sync::Arc;
 use unripple::act::CELLS;
 use unripple::core::Point;
@@ -182,6 +182,38 @@ impl Field {
     #[getter]
     fn outside<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<bool>>> {
         shared(slf, |field| field.maps().outside.as_slice(), slf.get().maps().outside.len())
+    }
+
+    /// Whether velocities are in m/s and displacements in metres; otherwise they are known but for a factor.
+    #[getter]
+    fn scaled(&self) -> bool {
+        self.0.made.scaled
+    }
+
+    /// The displacement in motion, as the task writes it in its folder: the bytes of an animated PNG of so many frames over a span, start and
+    /// end in s from the drive's first sample; None: from 6 ms before the first place's instant to 3 ms after. `progress` is told stages.
+    ///
+    /// Raises AskError of no frame or too many, of a span that makes no sense or ends after the field is known, and InputError at the points
+    /// of a library.
+    #[pyo3(signature = (frames, movie_s=None, progress=None))]
+    fn animation<'py>(
+        &self,
+        py: Python<'py>,
+        frames: usize,
+        movie_s: Option<[f64; 2]>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let made = self.0.made.clone();
+        let found = work(py, progress, None, move |progress| {
+            progress.stage("animation");
+            field::animation(&made, movie_s, frames)?.ok_or_else(|| {
+                let expected = "a field on a surface, which is evaluated on a grid";
+                TaskError::Input(format!(
+                    "animation: expected {expected}, found one at the points of a library"
+                ))
+            })
+        })?;
+        Ok(PyBytes::new(py, &found))
     }
 
     /// The figures that the task writes in its folder: SVG text by name. They are drawn each time; none if the ask wants none, and none of

@@ -4,7 +4,7 @@ use crate::commands::Done;
 use crate::drive::Drive;
 use crate::progress::work;
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict};
+use pyo3::types::{IntoPyDict, PyBytes, PyDict};
 use std::sync::Arc;
 use unripple_tasks::TaskError;
 
@@ -56,6 +56,15 @@ impl Focused {
     fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         drawn(py, &self.draw)
     }
+}
+
+/// A figure as a picture: the bytes of a PNG of an SVG text, on white, at a resolution in dots to an inch from 20 to 2400.
+///
+/// Raises WorkError of what cannot be drawn.
+#[pyfunction]
+pub(crate) fn png<'py>(py: Python<'py>, svg: String, dpi: f64) -> PyResult<Bound<'py, PyBytes>> {
+    let picture = work(py, None, None, move |_| Ok(unripple::plot::png(&svg, dpi)?))?;
+    Ok(PyBytes::new(py, &picture))
 }
 
 /// Figures as SVG text by their names, drawn with the GIL released.

@@ -30,7 +30,7 @@ mod _unripple {
     #[pymodule_export]
     use crate::field::Field;
     #[pymodule_export]
-    use crate::focused::Focused;
+    use crate::focused::{Focused, png};
     #[pymodule_export]
     use crate::player::Player;
     #[pymodule_export]

@@ -10,4 +10,4 @@ pub use ask::{Ask, DriveAsk};
 pub use made::Made;
 pub use report::Report;
 pub use run::{check, make, make_on, run, run_on};
-pub use write::figures;
+pub use write::{animation, figures};

@@ -1,7 +1,9 @@
 //! The folder of a field: report, figures and animation.
 
+use super::run::animated;
 use super::{Ask, Made};
 use crate::figures::{self, Columns, Scene};
+use crate::judge::CELLS;
 use crate::{Progress, Record, TaskError, folder, go_on};
 use unripple::act::Judged;
 use unripple::core::{Point, Surface};
@@ -69,9 +71,29 @@ pub(super) fn movie(
         return Ok(None);
     }
     progress.stage("animation");
+    figures::movie(field, &scene(surface, aims, judged), around(aims, ask.movie_s), ask.frames)
+}
+
+/// The animation of a field that was measured, as an animated PNG of the displacement: so many frames over a span (s), by default from 6 ms
+/// before the first place's instant to 3 ms after; `None` on a library, which has no grid.
+///
+/// # Errors
+/// [`TaskError::Ask`] of no frame or too many, and of a span that makes no sense or ends after the field is known.
+pub fn animation(made: &Made, span: Option<[f64; 2]>, frames: usize) -> Result<Option<Vec<u8>>, TaskError> {
+    animated(frames, span)?;
+    if frames == 0 {
+        return Err(TaskError::ask("frames", "at least 1", frames));
+    }
+    let field = Field::new(&made.responses, &made.drive, CELLS).map_err(TaskError::input)?;
+    figures::room(&field, frames, span)?;
+    let scene = scene(&made.surface, &made.aims, &made.judged);
+    figures::movie(&field, &scene, around(&made.aims, span), frames)
+}
+
+/// The span (s) of an animation: as asked for, or around the first place's instant.
+fn around(aims: &[Aim], asked: Option<[f64; 2]>) -> [f64; 2] {
     let instant = aims.first().map_or(0.0, |aim| aim.instant);
-    let span = ask.movie_s.unwrap_or([(instant - AROUND[0]).max(0.0), instant + AROUND[1]]);
-    figures::movie(field, &scene(surface, aims, judged), span, ask.frames)
+    asked.unwrap_or([(instant - AROUND[0]).max(0.0), instant + AROUND[1]])
 }
 
 /// What every map shows besides the field.
