@@ -74,10 +74,8 @@ class Chromium:
             connection = connect(address, max_size=None, open_timeout=PATIENCE, proxy=None)
             self._socket = self._opened.enter_context(connection)
             self._numbers = itertools.count(1)
-            self._frames: list[str] = []
             target = self.send("Target.createTarget", url="about:blank")["targetId"]
             self._page: str = self.send("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
-            self.send("Target.setAutoAttach", self._page, autoAttach=True, waitForDebuggerOnStart=False, flatten=True)
         except BaseException:
             self._opened.close()
             self._process.kill()
@@ -108,10 +106,8 @@ class Chromium:
         self._socket.send(json.dumps(message if session is None else {**message, "sessionId": session}))
         while True:
             heard = json.loads(self._socket.recv(timeout=PATIENCE))
-            if heard.get("method") == "Target.attachedToTarget":
-                if heard["params"]["targetInfo"]["type"] == "iframe":
-                    self._frames.append(heard["params"]["sessionId"])
-            elif heard.get("id") == number:
+            # Of events, which have no number, nothing is wanted.
+            if heard.get("id") == number:
                 if "error" in heard:
                     raise Refused(f"{method}: {heard['error']['message']}")
                 return heard["result"]
@@ -131,15 +127,13 @@ class Chromium:
         return found["result"].get("value")
 
     def frame(self, url: str) -> str | None:
-        """Return the frame that shows an address, if one does."""
-        for frame in self._frames:
-            try:
-                if self.evaluate("location.href", frame) == url:
-                    return frame
-            except Refused:
-                # It is gone, or shows another page by now.
-                continue
-        return None
+        """Return the frame of another site that shows an address, if one does."""
+        targets = self.send("Target.getTargets", filter=[{"type": "iframe"}])["targetInfos"]
+        shown = [target["targetId"] for target in targets if target["url"] == url]
+        if not shown:
+            return None
+        frame: str = self.send("Target.attachToTarget", targetId=shown[0], flatten=True)["sessionId"]
+        return frame
 
     def mouse(self, event: str, x: float, y: float) -> None:
         """Move the mouse to a place in the window, press it there, or release it: `mouseMoved`, `mousePressed`, `mouseReleased`."""
