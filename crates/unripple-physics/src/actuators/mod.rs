@@ -11,7 +11,6 @@ mod force;
 mod moving_magnet;
 mod piezo;
 mod place;
-mod push;
 mod sensor;
 mod suspension;
 mod transducer;

@@ -1,5 +1,5 @@
-//! The mechanical power into a sheet, by other routes: what the damping of its modes takes and what stays in them, and the currents and
-//! losses of coils and housings at a steady tone.
+//! The mechanical power into a sheet, by other routes: what the damping of its modes takes and what stays in them, and the mobility under
+//! actuators of several kinds at a steady tone.
 
 use std::f64::consts::TAU;
 use unripple::act::{Act, Level, model, power};
@@ -153,40 +153,8 @@ fn velocities(surface: &Surface, modal: &ModalResponses, s: c64) -> Vec<c64> {
     (0..places.len()).map(of).collect()
 }
 
-/// Power that an actuator gives to a sheet moving with the velocity `v` (complex amplitude) at the tone `sent` of frequency s = jω: that of
-/// its force or coil between sheet and ground or housing, less what the damper of the housing takes.
-fn given(kind: ActuatorKind, sent: f64, v: c64, s: c64) -> f64 {
-    let sent = c64::new(sent, 0.0);
-    let (Some(coil), bl) = (kind.coil(), kind.coil().map_or(0.0, |coil| coil.force_constant)) else {
-        let gain = if let ActuatorKind::Piezo { moment, .. } = kind { moment } else { 1.0 };
-        return 0.5 * (sent * gain * v.conj()).re;
-    };
-    let [mass, damping, stiffness] = match kind {
-        ActuatorKind::Exciter { housing_mass, resonance, quality_factor, .. } => {
-            let omega = TAU * resonance;
-            [housing_mass, housing_mass * omega / quality_factor, housing_mass * omega * omega]
-        }
-        _ => [f64::INFINITY, 0.0, 0.0],
-    };
-    let closed = s * coil.inductance + coil.resistance;
-    // M s u = (c + k/s)(v - u) - bl i, with i the drive's or (V - bl (v - u))/(R + Ls); w = v - u.
-    let tie = s.inv() * stiffness + damping;
-    let relative = match coil.driven_by {
-        _ if mass.is_infinite() => v,
-        CoilDrive::Current => (s * mass * v + sent * bl) / (s * mass + tie),
-        CoilDrive::Voltage => {
-            (s * mass * v + sent * bl / closed) / (s * mass + tie + c64::new(bl * bl, 0.0) / closed)
-        }
-    };
-    let current = match coil.driven_by {
-        CoilDrive::Current => sent,
-        CoilDrive::Voltage => (sent - relative * bl) / closed,
-    };
-    0.5 * (current * bl * relative.conj()).re - 0.5 * damping * relative.norm_sqr()
-}
-
 #[test]
-fn coils_housings_and_patches_give_what_their_circuits_and_springs_leave() {
+fn coils_on_a_current_and_patches_give_what_their_tones_do() {
     let coil = |driven_by, inductance| ActuatorKind::MovingMagnet {
         force_constant: 0.6,
         resistance: 6.0,
@@ -194,28 +162,14 @@ fn coils_housings_and_patches_give_what_their_circuits_and_springs_leave() {
         moving_mass: 1e-5,
         driven_by,
     };
-    let exciter = |driven_by, inductance| ActuatorKind::Exciter {
-        force_constant: 0.6,
-        resistance: 6.0,
-        inductance,
-        moving_mass: 1e-5,
-        housing_mass: 2e-4,
-        resonance: 150.0,
-        quality_factor: 3.0,
-        driven_by,
-    };
-    let (amperes, volts) = (CoilDrive::Current, CoilDrive::Voltage);
     let kinds = [
-        ActuatorKind::Force,
-        ActuatorKind::Piezo { patch: Patch::Round { radius: 5e-3 }, moment: 0.02, mass: 1e-5 },
-        coil(amperes, 1e-3),
-        coil(volts, 0.0),
-        coil(volts, 1e-3),
-        exciter(amperes, 1e-3),
-        exciter(volts, 0.0),
-        exciter(volts, 1e-3),
+        (ActuatorKind::Force, Some(1.0)),
+        (ActuatorKind::Piezo { patch: Patch::Round { radius: 5e-3 }, moment: 0.02, mass: 1e-5 }, Some(0.02)),
+        (coil(CoilDrive::Current, 1e-3), Some(0.6)),
+        // What a coil on a voltage gives depends on a velocity that these modes do not have.
+        (coil(CoilDrive::Voltage, 1e-3), None),
     ];
-    for kind in kinds {
+    for (kind, gain) in kinds {
         let surface = film(Some(kind));
         let responses = model(&surface, None, &[]).unwrap();
         for hz in [170.0, 400.0, 630.0] {
@@ -223,11 +177,13 @@ fn coils_housings_and_patches_give_what_their_circuits_and_springs_leave() {
             let tone = (0..period * count).map(|i| (TAU * hz * i as f64 / RATE).cos()).collect();
             let drive = drive(&surface, vec![tone, vec![0.0; period * count]]);
             let field = Field::new(&responses, &drive, 1.0).unwrap();
-            let found = power(&surface, &field, period as f64 / RATE).unwrap().unwrap();
-            let s = c64::new(0.0, TAU * hz);
-            let moved = velocities(&surface, modal(&responses), s);
-            // The second one is sent nothing, but a coil that is closed, or hangs on a spring, takes from the sheet.
-            let expected = given(kind, 1.0, moved[0], s) + given(kind, 0.0, moved[1], s);
+            let found = power(&surface, &field, period as f64 / RATE).unwrap();
+            let Some(gain) = gain else {
+                assert_eq!(found, None);
+                continue;
+            };
+            let moved = velocities(&surface, modal(&responses), c64::new(0.0, TAU * hz));
+            let (found, expected) = (found.unwrap(), 0.5 * gain * moved[0].re);
             assert!((found / expected - 1.0).abs() < 1e-3, "{kind:?}, {hz} Hz: {found} {expected}");
         }
     }
