@@ -181,7 +181,7 @@ mod tests {
         told.at(1.0, |lines, now| lines.done(0.5, now));
         told.at(1.5, |lines, now| lines.stage("drive", now));
         told.wait(1.5, 2.0);
-        assert_eq!(told.all, [String::new(); 0]);
+        assert!(told.all.is_empty(), "{:?}", told.all);
     }
 
     #[test]

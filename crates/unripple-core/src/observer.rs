@@ -1,11 +1,7 @@
 //! Observers of long computations: what is being computed, and how much of it is done.
 
 use std::cell::RefCell;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-
-/// Parts of a step that are counted: fine enough for a bar, and far more steps fit than any computation has.
-const PARTS: f64 = 1e6;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Whoever is told how far a long computation has come. It is called on any thread that takes part, rarely enough that a lock costs
 /// nothing.
@@ -105,7 +101,7 @@ impl Observed {
 
     /// A count of the steps of a part, `total` of them, which may be taken on several threads.
     pub fn steps(&self, total: usize) -> Steps {
-        Steps { observed: self.clone(), total: total.max(1) as f64, taken: AtomicU64::new(0) }
+        Steps { observed: self.clone(), total: total.max(1) as f64, taken: Mutex::new(0.0) }
     }
 }
 
@@ -139,23 +135,22 @@ impl Observer for Within {
 pub struct Steps {
     observed: Observed,
     total: f64,
-    /// In millionths of a step.
-    taken: AtomicU64,
+    taken: Mutex<f64>,
 }
 
 impl Steps {
     /// Takes one step, or a share (0 to 1) of it, and tells how much is done.
     pub fn take(&self, share: f64) {
-        let more = (PARTS * share.clamp(0.0, 1.0)) as u64;
-        let taken = self.taken.fetch_add(more, Ordering::Relaxed) + more;
-        self.observed.done(taken as f64 / (PARTS * self.total));
+        // Held while it is told, so that shares of several threads come in order.
+        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+        *taken += share.clamp(0.0, 1.0);
+        self.observed.done(*taken / self.total);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::sync::Mutex;
 
     #[derive(Default)]
     struct Log(Mutex<Vec<String>>);

@@ -97,7 +97,7 @@ fn drives_are_evaluated_on_what_is_within_reach() {
     assert!(planned.contains("up to 7620 Hz, since those up to 15240 Hz are out of reach"), "{planned}");
 
     let output = folder("reach-compare");
-    let methods = vec![unripple::focus::Method::Inverse];
+    let methods = vec![unripple::focus::Method::TimeReversal];
     let place = Some(output.clone());
     let ask = compare::Ask {
         surface: strip(),
