@@ -17,7 +17,7 @@ pub struct Judged {
     pub until: f64,
     /// Slopes, strains and added tension of the field; `None` for sampled responses, which are on no grid.
     pub linearity: Option<Linearity>,
-    /// Mean mechanical power into the sheet over the drive or its last period, in W, as far as [`power`] knows it.
+    /// Mean mechanical power into the sheet over the drive or its last period, in W, as far as [`power()`] knows it.
     pub power: Option<f64>,
     /// Warnings, such as where linear theory no longer holds.
     pub notes: Vec<Note>,

@@ -62,7 +62,7 @@ pub struct Report {
     /// Metrics of the drive itself.
     pub drive: DriveFigures,
     /// Mean mechanical power that the actuators give to the sheet, in W, over the whole drive or its last period; absent where
-    /// [`power`](crate::act::power) does not know it.
+    /// [`power()`](crate::act::power()) does not know it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_mechanical_power_w: Option<f64>,
     /// Mean heat in the coils; only if the surface has some.
