@@ -26,7 +26,7 @@ at_mm = [84, 16]
 
 #[test]
 fn a_coarser_accuracy_reaches_every_command() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Scratch::new("accuracy");
     let file = folder.path().join("hexagon.toml");
     fs::write(&file, HEXAGON).unwrap();
     let file = file.display().to_string();
