@@ -21,11 +21,6 @@ const DOUBTED: f64 = 0.1;
 /// times the noise of a measurement is not that noise, even if the measurement knew it to a factor of three.
 const LOUD: f64 = 10.0;
 
-/// Smallest residual as a whole, in multiples of the noise that was measured, with which a model is called doubtful, whatever its parts. The
-/// model in the guide's example of a sheet that warms, with which a focus keeps 99 % of its contrast, has 12.5; of a measurement without noise,
-/// which counts as one of -60 dB, this is 3 % of the signal.
-const EXCLUDED: f64 = 30.0;
-
 /// Largest accepted distance of an unknown from its expected value, in standard deviations of its prior. Of values from a normal
 /// distribution one in 16 000 lies farther.
 const FAR: f64 = 4.0;
@@ -35,7 +30,7 @@ const NEGATIVE: f64 = 0.2;
 
 /// Standard errors below 0, and standard deviations of the prior, from which on a mass is negative beyond doubt: noise alone does that to one
 /// mass in three million.
-const IMPOSSIBLE: [f64; 2] = [5.0, 0.05];
+const IMPOSSIBLE: [f64; 2] = [5.0, 0.02];
 
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -360,15 +355,6 @@ fn verdict(found: &Found, following: Following, far: &[String]) -> Verdict {
             "what neither the model explains nor grows with the signal is {loud:.1} times the noise that was measured, in a residual of \
              {:.1} times: something else is heard as well, or the noise is not what the measurement says",
             found.excess
-        );
-        return Verdict::Doubtful { unexplained, why };
-    }
-    if found.excess > EXCLUDED {
-        let why = format!(
-            "the residual is {:.1} times the noise that was measured, and {:.1} % of the signal amplitude is explained neither by the model \
-             nor by noise: more than a model leaves that is right",
-            found.excess,
-            100.0 * unexplained
         );
         return Verdict::Doubtful { unexplained, why };
     }
