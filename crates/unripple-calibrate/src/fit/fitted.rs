@@ -16,21 +16,12 @@ use unripple_physics::Medium;
 /// Smallest unexplained share of the measured signals, as amplitude, with which a model is called doubtful.
 const DOUBTED: f64 = 0.1;
 
-/// Smallest part of the residual that does not grow with the signal, in multiples of the noise that was measured, with which a model is called
-/// doubtful. That part is noise if it is anything that the fit knows of, and its rms over thousands of lines is certain to a per cent; ten
-/// times the noise of a measurement is not that noise, even if the measurement knew it to a factor of three.
-const LOUD: f64 = 10.0;
-
 /// Largest accepted distance of an unknown from its expected value, in standard deviations of its prior. Of values from a normal
 /// distribution one in 16 000 lies farther.
 const FAR: f64 = 4.0;
 
 /// Largest accepted negative mass, in standard deviations of its prior: noise turns a mass of 0 into values down to this.
 const NEGATIVE: f64 = 0.2;
-
-/// Standard errors below 0, and standard deviations of the prior, from which on a mass is negative beyond doubt: noise alone does that to one
-/// mass in three million.
-const IMPOSSIBLE: [f64; 2] = [5.0, 0.02];
 
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,7 +138,7 @@ impl Answers<'_> {
         }
     }
 
-    /// Names of unknowns that are farther than [`FAR`] from what was expected, and of masses that cannot be. Gains are not checked.
+    /// Names of unknowns that are farther than [`FAR`] from what was expected. Gains are not checked.
     fn far(&self, expected: &Values) -> Vec<String> {
         let (mut values, mut thought) = (self.found.values.clone(), expected.clone());
         let far = |u: &Unknown| {
@@ -155,9 +146,7 @@ impl Answers<'_> {
                 return false;
             }
             let (value, spread) = (*values.of(*u), self.case.layout.spread(*u));
-            let [errors, spreads] = IMPOSSIBLE;
-            let impossible = value < -(errors * self.of(*u).error).max(spreads * spread);
-            let negative = matches!(u, Unknown::Mass(_)) && (impossible || value < -NEGATIVE * spread);
+            let negative = matches!(u, Unknown::Mass(_)) && value < -NEGATIVE * spread;
             negative || (value - *thought.of(*u)).abs() > FAR * spread
         };
         let mut all = self.case.layout.unknowns();
@@ -240,7 +229,7 @@ impl Fitted {
             excess: found.excess,
             residual: found.share,
             unexplained: following.share,
-            verdict: verdict(found, following, &answers.far(expected)),
+            verdict: verdict(found, following.share, &answers.far(expected)),
             sensors,
             bending_shares,
             coils: case.basis.coils.clone(),
@@ -337,23 +326,12 @@ impl Fitted {
     }
 }
 
-fn verdict(found: &Found, following: Following, far: &[String]) -> Verdict {
-    let unexplained = following.share;
+fn verdict(found: &Found, unexplained: f64, far: &[String]) -> Verdict {
     if unexplained > DOUBTED {
         let why = format!(
             "{:.1} % of the signal amplitude is explained neither by the model nor by noise, in a residual of {:.1} times the \
              noise: the surface has something that the model has not, or changed while it was measured",
             100.0 * unexplained,
-            found.excess
-        );
-        return Verdict::Doubtful { unexplained, why };
-    }
-    // Of both parts of a line together, whose variances are 1 each.
-    let loud = (0.5 * following.noise).sqrt();
-    if loud > LOUD {
-        let why = format!(
-            "what neither the model explains nor grows with the signal is {loud:.1} times the noise that was measured, in a residual of \
-             {:.1} times: something else is heard as well, or the noise is not what the measurement says",
             found.excess
         );
         return Verdict::Doubtful { unexplained, why };
