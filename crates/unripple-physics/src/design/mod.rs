@@ -89,7 +89,8 @@ pub fn design_by_law(surface: &Surface, reason: impl Into<String>) -> Result<Des
 fn on(ground: &ground::Ground<'_>) -> Result<Design, PhysicsError> {
     let mut design = Design::on(ground);
     if ground.counted.is_ok() {
-        design.with_actuators = WithActuators::of(ground.surface)?;
+        // What they cannot be computed for is said where it is needed; a design has its other figures.
+        design.with_actuators = WithActuators::of(ground.surface).unwrap_or(None);
     }
     design.notes = notes::notes(ground, &design);
     design.paper = paper::is_papers_film(ground.surface).then(|| remarks::paper_figures(ground, &design));

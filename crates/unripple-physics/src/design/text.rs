@@ -100,10 +100,9 @@ fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
         Predicted::Modes => "from the modes with these actuators",
         Predicted::Statistics => "by statistics of the band",
     };
-    line(f, "contrast", &format!("{:.1}, {how}", d.contrast_predicted))?;
-    if let Some([low, high]) = d.contrast_interval {
-        line(f, "nine targets in ten have", &format!("{low:.1} to {high:.1}"))?;
-    }
+    let interval =
+        d.contrast_interval.map(|[low, high]| format!("; nine targets in ten have {low:.1} to {high:.1}"));
+    line(f, "contrast", &format!("{:.1}, {how}{}", d.contrast_predicted, interval.unwrap_or_default()))?;
     let (endless, plain) = (d.contrast_endless, d.contrast_plain);
     line(
         f,

@@ -264,6 +264,8 @@ fn every_figure_is_a_number() {
             "coincidence_hz",
             "mode_count_exact_reason",
             "paper",
+            "with_actuators",
+            "contrast_interval",
             "yield_strain",
             "share_of_yield",
             "yield_amplitude_m",
