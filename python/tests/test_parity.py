@@ -71,7 +71,8 @@ def test_each_command_of_the_command_line_is_here(program: str) -> None:
 def test_each_option_of_the_page_is_here(program: str) -> None:
     of_devices = {option.name for option in _options.OPTIONS["doctor"] if option.field.startswith("device")}
     # `browser` says the opposite of the one, and the other is how the page ends with Python.
-    known = {*_view._OPTIONS, *of_devices, "no_browser", "until_input_ends"}
+    # The accuracy is a key of the surface.
+    known = {*_view._OPTIONS, *of_devices, "no_browser", "until_input_ends", "accuracy"}
     assert _said_options(program, "view") - known == set()
 
 
@@ -81,8 +82,8 @@ def test_each_option_of_the_command_line_is_here(program: str, command: str) -> 
     known = {name for task in tasks for name in _options.names(task)} | _REFUSED.get(command, set())
     said = _said_options(program, command)
     assert "output" in said or "set" in said, "the help was not understood"
-    # Every command line has `--set`, and refuses it where no surface is read.
-    assert said - known <= {"set"}
+    # Every command line has `--set` and `--accuracy`, and refuses them where no surface is read; in Python they are keys of the surface.
+    assert said - known <= {"set", "accuracy"}
 
 
 def test_each_key_of_a_report_is_an_attribute() -> None:

@@ -19,7 +19,7 @@ from unripple._values import shown
 #: and is given within the other: `thickness_mm` is the sheet's, that of a disc is in `scatterers=[…]`. `contact_radius_mm` is left out,
 #: since a finger and an actuator have one alike: give `finger={…}` or `actuator_defaults={…}`.
 TABLES: dict[str, tuple[str, ...]] = {
-    "": ("format", "name"),
+    "": ("format", "name", "accuracy"),
     "outline": ("rectangle_mm", "circle_mm", "stadium_mm", "polygon_mm", "path_mm", "svg", "edge"),
     "sheet": (
         "material",

@@ -130,6 +130,8 @@ def fit(
         Largest numbers of unknown point masses, and of half waves in the variation of the tension; 3 each by default.
     even_if_doubtful
         Write the library even if the model is doubtful.
+    accuracy
+        Relative accuracy of the modes' frequencies, 1e-6 by default.
 
     Returns
     -------

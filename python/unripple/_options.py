@@ -221,6 +221,7 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         *_POINTS,
         *_same(count, "strays", "profile"),
         *_same(flag, "even_if_doubtful"),
+        *_same(number, "accuracy"),
     ),
     "export": (
         *_same(path, "library", "output"),

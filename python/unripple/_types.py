@@ -243,6 +243,7 @@ class FitOptions(CallOptions, total=False):
     strays: int | None
     profile: int | None
     even_if_doubtful: bool | None
+    accuracy: float | None
 
 
 class ExportOptions(CallOptions, total=False):

@@ -26,7 +26,7 @@ fn they_are_reported_at_their_times_in_order_of_time() {
     source.poll(1.0, &mut heard);
     assert_eq!(told(&heard.touches[4..]), [(1, Phase::Move, 11.0, 50.0), (1, Phase::Up, 11.0, 50.0)]);
     assert_eq!(heard.touches[5].time, 0.010 + 0.007);
-    assert_eq!(source.counts(), Counts { packets: 6, touches: 6, ..Counts::default() });
+    assert_eq!(source.counts(), Counts { packets: 6, touches: 6, downs: 2, ..Counts::default() });
 }
 
 #[test]
