@@ -14,7 +14,7 @@ from unripple._errors import AskError, InputError, OptionError
 from unripple._focusing import Focusing
 from unripple._progress import Telling, chosen_threads
 from unripple._surface import Surface
-from unripple._typed import Typed
+from unripple._typed import Typed, of_places
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -123,8 +123,7 @@ class Responses(Focusing):
         points_mm, actuators_mm, names
             Places in mm of the points and of the actuators, each of shape (…, 2), and names of the actuators; a1, a2 and so on by default.
         band_hz, lambda_min_mm
-            Lowest and highest frequency in Hz, by default those of the surface, or from 0 to 0.45 of the sample rate; shortest wavelength in
-            mm, which sets how large a focus is: needed without a surface.
+            Band in Hz, by default the surface's, or 0 to 0.45 of the rate; shortest wavelength in mm (of a focus), needed without a surface.
         surface
             The surface that was measured, for its outline and its limits.
         scaled
@@ -158,11 +157,7 @@ class Responses(Focusing):
             "actuators_m": _metres("actuators_mm", actuators_mm),
             "scaled": _values.flag("scaled", scaled),
         }
-        with Typed(
-            points_m=("points_mm", points_mm),
-            actuators_m=("actuators_mm", actuators_mm),
-            lambda_min_m=("lambda_min_mm", lambda_min_mm),
-        ):
+        with of_places(points_mm, actuators_mm, lambda_min_mm):
             return cls._of_array(values, {**known, **_of_waves(band_hz, lambda_min_mm, surface)})
 
     @classmethod

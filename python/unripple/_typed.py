@@ -87,3 +87,12 @@ def _of_ask(error: AskError, names: Mapping[str, str], values: Mapping[str, obje
 def _marked(text: str, names: Mapping[str, str]) -> str:
     """Return a text with the fields that it marks by their names."""
     return _MARKED.sub(lambda mark: f"`{names.get(mark[1], mark[1])}`", text)
+
+
+def of_places(points_mm: object, actuators_mm: object, lambda_min_mm: object) -> Typed:
+    """Return what names in errors the options of `from_numpy` as they were typed, in mm."""
+    return Typed(
+        points_m=("points_mm", points_mm),
+        actuators_m=("actuators_mm", actuators_mm),
+        lambda_min_m=("lambda_min_mm", lambda_min_mm),
+    )

@@ -76,9 +76,7 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let unscaled = source.without_scale().filter(|_| plant.is_none());
     let solved = source.solved.clone();
     let known = source.lambda_min();
-    let lambda_min = known
-        .unwrap_or_else(|| Medium::of(&source.surface.sheet).lambda_min(source.surface.emission.band[1]));
-    let targets = targets(&ask.points, &ask.shapes, lambda_min)?;
+    let targets = targets(&ask.points, &ask.shapes, known.unwrap_or_else(|| shortest(&source.surface)))?;
     if known.is_none() {
         lasts(ask, &source.surface)?;
     }
@@ -122,16 +120,24 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     report.notes.extend(chosen.map(|chosen| Note { topic: "window", text: chosen.text() }));
     report.notes.extend(restored);
     models.iter().for_each(|(_, judging)| judging.tell(judged_surface, &mut report));
-    if let Some((told, notes)) = stored {
-        report.notes.extend(notes.into_iter().chain(act::nearby(&focused, &targets)));
-        report.judged_on.get_or_insert(told);
-    }
+    stored.into_iter().for_each(|of| tell_of_library(&mut report, of, act::nearby(&focused, &targets)));
     if unscaled.is_some() {
         report = report.without_scale();
     }
     let surface = judged_surface.clone();
     drop(focuser);
     Ok(Made { report, drive, judged, focused, surface, responses, scaled: unscaled.is_none() })
+}
+
+/// The shortest wavelength of a surface's band, in m.
+fn shortest(surface: &Surface) -> f64 {
+    Medium::of(&surface.sheet).lambda_min(surface.emission.band[1])
+}
+
+/// Adds to a report what is to be said of the library that it is taken from, and of its points that are used in place of others.
+fn tell_of_library(report: &mut Report, (told, notes): (String, Vec<Note>), nearby: Vec<Note>) {
+    report.notes.extend(notes.into_iter().chain(nearby));
+    report.judged_on.get_or_insert(told);
 }
 
 /// The window in s: the one asked for, or the one that the surface and its responses are best used with, which is told as well.

@@ -115,7 +115,7 @@ impl Modal {
     }
 }
 
-/// ∫_0^T Re a e^{st} Re b e^{rt} dt, with e^{sT} and e^{rT}.
+/// ∫_0^T Re a e^{st} Re b e^{rt} dt in s, for a window T in s, with e^{sT} and e^{rT}.
 pub fn integral([a, b]: [&Term; 2], [end, other]: [c64; 2], window: f64) -> f64 {
     let sum = a.amplitude * b.amplitude * gathered(a.rate + b.rate, end * other, window)
         + a.amplitude * b.amplitude.conj() * gathered(a.rate + b.rate.conj(), end * other.conj(), window);
