@@ -132,7 +132,7 @@ impl Material {
     /// The built-in material of that name, or with that alias, whatever the case of its letters; `None` if there is none.
     pub fn named(name: &str) -> Option<&'static Self> {
         let called = |known: &&str| known.eq_ignore_ascii_case(name);
-        MATERIALS.iter().find(|m| called(&m.name) || m.aliases.iter().any(|alias| called(alias)))
+        MATERIALS.iter().find(|m| called(&m.name) || m.aliases.iter().any(&called))
     }
 }
 
