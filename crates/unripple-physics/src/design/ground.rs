@@ -33,6 +33,8 @@ pub(super) struct Ground<'a> {
     pub window: Recommended,
     /// Contrast against window, from which that window was chosen.
     pub windows: Windows,
+    /// Contrast with that window over that by the statistics of the modes.
+    statistics_scale: f64,
     /// Contrast with that window from the modes coupled to all that is attached to the sheet; `None` where the window is chosen by
     /// statistics.
     pub loaded_contrast: Option<f64>,
@@ -69,7 +71,7 @@ impl<'a> Ground<'a> {
         let actuators = surface.actuators.len() as f64;
         let windows = windows();
         let window = windows.recommended();
-        Ok(Self {
+        let mut ground = Self {
             surface,
             medium,
             scale,
@@ -80,8 +82,12 @@ impl<'a> Ground<'a> {
             loaded_contrast: windows.is_modal().then_some(window.contrast).filter(|c| c.is_finite()),
             window,
             windows,
+            statistics_scale: 1.0,
             cavity,
-        })
+        };
+        let own = ground.by_statistics(&[actuators], ground.window.seconds)[0];
+        ground.statistics_scale = ground.contrast() / own;
+        Ok(ground)
     }
 
     /// Number of modes by Weyl's law from the bottom to the top of the band.
@@ -119,12 +125,15 @@ impl<'a> Ground<'a> {
     /// Expected contrast for each number of `actuators` like those of the surface and a window in s: by the statistics of its own modes, or
     /// of its band where these are not known; scaled so that it agrees with [`Ground::contrast`] where that holds.
     pub fn expected(&self, actuators: &[f64], window: f64) -> Vec<f64> {
-        let of = |actuators: &[f64], window: f64| -> Vec<f64> {
-            let by_law = || actuators.iter().map(|n| self.cavity.contrast(*n, window)).collect();
-            self.windows.expected(actuators, window).unwrap_or_else(by_law)
-        };
-        let scale = self.contrast() / of(&[self.actuators], self.window.seconds)[0];
-        of(actuators, window).into_iter().map(|contrast| scale * contrast).collect()
+        let mut found = self.by_statistics(actuators, window);
+        found.iter_mut().for_each(|contrast| *contrast *= self.statistics_scale);
+        found
+    }
+
+    /// The same, not scaled.
+    fn by_statistics(&self, actuators: &[f64], window: f64) -> Vec<f64> {
+        let by_law = || actuators.iter().map(|n| self.cavity.contrast(*n, window)).collect();
+        self.windows.expected(actuators, window).unwrap_or_else(by_law)
     }
 
     /// What forms of the band alone are to be multiplied by to agree with [`Ground::contrast`].

@@ -22,7 +22,7 @@ const STEP: f64 = 1e-4;
 #[derive(Clone, Debug)]
 pub(super) struct Weyl {
     area: f64,
-    /// Lengths (m) and kinds of the edges, those of holes too.
+    /// Length (m) of all edges of each kind, those of holes too.
     edges: Vec<(f64, Edge)>,
     sheet: Reflecting,
 }
@@ -39,10 +39,16 @@ impl Weyl {
     /// The law for a surface without what is on it.
     pub fn of(surface: &Surface) -> Self {
         let medium = Medium::of(&surface.sheet);
-        let sides = surface.outline.loops().into_iter().flat_map(|rim| rim.sides);
+        let mut edges: Vec<(f64, Edge)> = Vec::new();
+        for (side, edge) in surface.outline.loops().into_iter().flat_map(|rim| rim.sides) {
+            match edges.iter_mut().find(|(_, known)| *known == edge) {
+                Some((length, _)) => *length += side.length(),
+                None => edges.push((side.length(), edge)),
+            }
+        }
         Self {
             area: surface.outline.area(),
-            edges: sides.map(|(side, edge)| (side.length(), edge)).collect(),
+            edges,
             sheet: Reflecting {
                 tension: medium.tension,
                 bending: medium.bending_stiffness,
@@ -53,14 +59,7 @@ impl Weyl {
 
     /// Number of modes below the wavenumber `k` (rad/m); below some wavelengths it may be negative.
     pub fn below(&self, k: f64) -> f64 {
-        let mut kinds: Vec<(f64, Edge)> = Vec::new();
-        for (length, edge) in &self.edges {
-            match kinds.iter_mut().find(|(_, known)| known == edge) {
-                Some((sum, _)) => *sum += length,
-                None => kinds.push((*length, *edge)),
-            }
-        }
-        let rim: f64 = kinds.iter().map(|(length, edge)| length * self.sheet.term(*edge, k) / PI).sum();
+        let rim: f64 = self.edges.iter().map(|(length, edge)| length * self.sheet.term(*edge, k) / PI).sum();
         self.area * k * k / (4.0 * PI) + rim
     }
 
