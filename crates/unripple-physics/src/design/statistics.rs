@@ -1,9 +1,9 @@
 //! Statistical contrast of time reversal from the natural frequencies of a surface's own modes, for any number of actuators.
 
-use super::window::{Term, exponentials, grid, integral, targets};
+use super::window::{Modal, Term, integral};
 use crate::Medium;
 use std::f64::consts::{PI, TAU};
-use unripple_core::{ModalResponses, Point};
+use unripple_core::ModalResponses;
 use unripple_dsp::bessel_j;
 use unripple_linalg::c64;
 
@@ -59,21 +59,14 @@ struct Mode {
 impl Statistics {
     /// The statistics of modal responses on a sheet of this `medium`; `None` where there is no actuator, no mode, or no room for targets.
     pub fn of(responses: &ModalResponses, medium: Medium) -> Option<Self> {
-        let ModalResponses { ports, poles, input, shapes, conditions } = responses;
-        let actuators: Vec<Point> = ports.iter().map(|port| port.at).collect();
-        let targets = targets(&conditions.outline, &actuators, conditions.lambda_min);
-        let grid = grid(&conditions.outline, conditions.lambda_min);
-        if ports.is_empty() || poles.is_empty() || targets.is_empty() || grid.is_empty() {
-            return None;
-        }
+        Some(Self::on(&Modal::of(responses).ok()?, responses, medium))
+    }
+
+    /// The statistics of responses whose exponentials and shapes are known.
+    pub(super) fn on(modal: &Modal, responses: &ModalResponses, medium: Medium) -> Self {
+        let ModalResponses { poles, input, conditions, .. } = responses;
         let count = poles.len();
-        let mean_squares = |points: &[Point]| -> Vec<f64> {
-            let shapes = shapes.at_all(points);
-            (0..count)
-                .map(|m| shapes.col(m).iter().map(|v| v * v).sum::<f64>() / points.len() as f64)
-                .collect()
-        };
-        let (at_targets, everywhere) = (mean_squares(&targets), mean_squares(&grid));
+        let [at_targets, everywhere] = modal.mean_squares();
         let actuators = input.nrows();
         let squares = |m: usize| (0..actuators).map(move |a| input[(a, m)] * input[(a, m)]);
         let own: Vec<f64> = (0..count).map(|m| squares(m).sum::<f64>() / actuators as f64).collect();
@@ -92,14 +85,14 @@ impl Statistics {
             everywhere: everywhere[m],
             wavenumber: medium.wavenumber(poles[m].omega),
         });
-        Some(Self {
-            terms: poles.iter().enumerate().flat_map(|(m, pole)| exponentials(m, *pole)).collect(),
+        Self {
+            terms: modal.terms().to_vec(),
             modes: modes.collect(),
             scatter: (total - shared).max(0.0),
             shared,
             radius: conditions.focal_radius(),
             area: conditions.outline.area(),
-        })
+        }
     }
 
     /// Expected contrast, a ratio of amplitudes, for each number of `actuators` and a window in seconds.

@@ -6,9 +6,7 @@ mod places;
 use super::weyl::Weyl;
 use super::{Cavity, Statistics};
 use crate::{Medium, ResponseOptions, responses};
-use modal::Modal;
-pub(super) use modal::{Term, exponentials, integral};
-pub(super) use places::{grid, targets};
+pub(super) use modal::{Modal, Term, integral};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use unripple_core::{Responses, Surface};
@@ -129,7 +127,7 @@ impl Windows {
         match responses(surface, &options) {
             Ok(Responses::Modal(responses)) => match Modal::of(&responses) {
                 Ok(modal) => Self {
-                    by_modes: Statistics::of(&responses, Medium::of(&surface.sheet)),
+                    by_modes: Some(Statistics::on(&modal, &responses, Medium::of(&surface.sheet))),
                     ..Self::along(surface, None, |window| modal.contrast(window))
                 },
                 Err(reason) => Self::by_law(surface, reason),
@@ -166,8 +164,10 @@ impl Windows {
         let at = |step: u32| shortest * (longest / shortest).powf(f64::from(step) / steps);
         let found: Vec<_> =
             (0..=steps as u32).into_par_iter().map(|step| (at(step), contrast(at(step)))).collect();
-        let spread =
-            found.iter().map(|(_, (_, spread))| *spread).filter(|[low, _]| low.is_finite()).collect();
+        let spread = match &statistics {
+            Some(_) => Vec::new(),
+            None => found.iter().map(|(_, (_, spread))| *spread).collect(),
+        };
         let curve = found.into_iter().map(|(window, (mean, _))| (window, mean)).collect();
         Self { curve, spread, by_modes: None, statistics }
     }

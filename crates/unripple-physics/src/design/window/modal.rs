@@ -8,7 +8,7 @@ use unripple_linalg::{Accum, Mat, MatRef, Par, c64, multiply};
 ///
 /// Responses h_a(x) = Σ_m b_am φ_m(x) g_m(t), recorded at A for T and played backwards, give at the focal instant the velocity
 /// Σ_m φ_m(x) Σ_n (Σ_a b_am b_an) I_mn φ_n(A), with I_mn = ∫_0^T g_m g_n dt a sum of exponentials of T.
-pub(super) struct Modal {
+pub struct Modal {
     terms: Vec<Term>,
     /// Σ_a b_am b_an, modes x modes.
     gains: Mat<f64>,
@@ -68,6 +68,20 @@ impl Modal {
         })
     }
 
+    /// The velocities of all modes as exponentials, in order of the modes.
+    pub fn terms(&self) -> &[Term] {
+        &self.terms
+    }
+
+    /// Mean square shape of each mode, in 1/kg: over the targets, and over the grid.
+    pub fn mean_squares(&self) -> [Vec<f64>; 2] {
+        let modes = 0..self.gains.nrows();
+        let targets =
+            modes.clone().map(|m| squares(self.targets.row(m).iter()) / self.targets.ncols() as f64);
+        let points = modes.map(|m| squares(self.points.col(m).iter()) / self.points.nrows() as f64);
+        [targets.collect(), points.collect()]
+    }
+
     /// Contrast at the focal instant of a window in seconds, from the mean of 1/C² over the targets, and the contrasts that a twentieth of the
     /// targets stay below and above.
     pub fn contrast(&self, window: f64) -> (f64, [f64; 2]) {
@@ -115,6 +129,11 @@ impl Modal {
     }
 }
 
+/// Sum of squares.
+fn squares<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
+    values.map(|v| v * v).sum()
+}
+
 /// ∫_0^T Re a e^{st} Re b e^{rt} dt in s, for a window T in s, with e^{sT} and e^{rT}.
 pub fn integral([a, b]: [&Term; 2], [end, other]: [c64; 2], window: f64) -> f64 {
     let sum = a.amplitude * b.amplitude * gathered(a.rate + b.rate, end * other, window)
@@ -132,7 +151,7 @@ fn gathered(rate: c64, end: c64, window: f64) -> c64 {
 }
 
 /// The velocity of a mode, [`Pole::velocity`], as a sum of exponentials.
-pub fn exponentials(mode: usize, pole: Pole) -> Vec<Term> {
+fn exponentials(mode: usize, pole: Pole) -> Vec<Term> {
     let Pole { omega, sigma, onset } = pole;
     let term = |amplitude: c64, rate: c64| Term { mode, amplitude, rate };
     let square = (omega - sigma) * (omega + sigma);
