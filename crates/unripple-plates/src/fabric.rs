@@ -4,7 +4,7 @@ use crate::PhysicsError;
 use unripple_core::{Grain, Point, Profile, Scatterer, ScattererKind, Surface, require};
 
 /// The properties of a sheet at one point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Local {
     /// Mass per area, in kg/m².
     pub(crate) mass: f64,
@@ -165,9 +165,9 @@ impl Fabric {
     }
 }
 
-#[cfg(test)]
 impl Local {
-    fn plus(&self, other: &Self) -> Self {
+    /// The sum of two.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             mass: self.mass + other.mass,
             tension: self.tension + other.tension,

@@ -2,7 +2,8 @@
 
 use super::border::Border;
 use super::corner::Corner;
-use super::monomials::{COUNT, Frame, QUINTIC};
+use super::kink::{Factors, Kink, product};
+use super::monomials::{COUNT, Frame, Jet, Jets, QUINTIC};
 use super::trim::trim;
 use unripple_core::Point;
 
@@ -18,10 +19,38 @@ pub(crate) struct Element {
     pub(crate) frame: Frame,
     /// Edges of the triangle, anticlockwise.
     pub(crate) borders: [Border; 3],
-    /// Indices of the unknowns that its polynomials depend on.
+    /// Indices of the unknowns that its functions depend on: those of its polynomials, then those with jumps.
     pub(crate) unknowns: Vec<usize>,
-    /// Coefficients of the basis polynomials, monomials x unknowns, row by row.
+    /// Coefficients of the basis polynomials, monomials x polynomials, row by row.
     pub(crate) basis: Vec<f64>,
+    /// The functions with jumps of curvature at the rims of discs, for the last unknowns.
+    jumping: Vec<Jumping>,
+}
+
+/// A function N (ψq - I(ψq)) with a jump of curvature at the rim of a disc, see [`Kink`], on one triangle.
+#[derive(Clone, Debug)]
+pub(crate) struct Jumping {
+    /// The function ψ of the disc.
+    pub(crate) kink: Kink,
+    /// The vertex around which it is, in metres.
+    pub(crate) vertex: Point,
+    /// The polynomial q.
+    pub(crate) factors: Factors,
+    /// Column of N among the basis polynomials.
+    pub(crate) column: usize,
+    /// Coefficients of the quintic I(ψq), monomial by monomial.
+    pub(crate) interpolated: Vec<f64>,
+}
+
+impl Jumping {
+    /// The function at a point, from N there and the monomials' jets; `covered` if the disc is over the point.
+    fn jet(&self, p: Point, covered: bool, of_vertex: &Jet, monomials: &Jets) -> Jet {
+        let mut left = if covered { [0.0; 6] } else { self.kink.outside(self.vertex, &self.factors, p) };
+        for (value, row) in left.iter_mut().zip(monomials) {
+            *value -= self.interpolated.iter().zip(row).map(|(c, m)| c * m).sum::<f64>();
+        }
+        product(of_vertex, &left)
+    }
 }
 
 /// The middle of an edge, with the normal derivative there as an unknown.
@@ -69,21 +98,80 @@ impl Element {
         let points = vertices.map(|v| v.at);
         let slopes = [0, 1, 2].map(|m| middles[m].unknown.is_none());
         trim(&frame, points, &borders, slopes, unknowns.len(), &mut basis);
-        Self { frame, borders, unknowns, basis }
+        Self { frame, borders, unknowns, basis, jumping: Vec::new() }
+    }
+
+    /// Adds a function with a jump, with the index of its unknown.
+    pub(crate) fn add(&mut self, jumping: Jumping, unknown: usize) {
+        self.jumping.push(jumping);
+        self.unknowns.push(unknown);
+    }
+
+    /// Number of its basis polynomials.
+    pub(crate) fn polynomials(&self) -> usize {
+        self.unknowns.len() - self.jumping.len()
+    }
+
+    /// Coefficients of the monomials of the polynomial that some values of its unknowns belong to.
+    pub(crate) fn polynomial(&self, values: &[f64]) -> Vec<f64> {
+        let rows = self.basis.chunks_exact(self.polynomials());
+        rows.map(|row| row.iter().zip(values).map(|(b, v)| b * v).sum()).collect()
+    }
+
+    /// The functions ψ of discs with jumps here, each once.
+    pub(crate) fn kinks(&self) -> impl Iterator<Item = &Kink> {
+        let first = |i: usize| self.jumping[..i].iter().all(|j| j.kink.disc != self.jumping[i].kink.disc);
+        (0..self.jumping.len()).filter(move |i| first(*i)).map(|i| &self.jumping[i].kink)
+    }
+
+    /// Index of the disc over a point (m), among those with functions here.
+    pub(crate) fn covering(&self, p: Point) -> Option<usize> {
+        self.kinks().find(|kink| kink.covers(p)).map(|kink| kink.disc)
+    }
+
+    /// Values at a point (m) of functions with jumps that are not among its own; `covered` if the disc is over the point.
+    pub(crate) fn jumps(&self, p: Point, covered: bool, functions: &[Jumping; 6]) -> [f64; 6] {
+        let monomials = self.frame.jets(p);
+        let of_vertex = |column: usize| monomials.map(|jet| self.combine(&jet)[column]);
+        let of_vertex = of_vertex(functions[0].column);
+        std::array::from_fn(|i| functions[i].jet(p, covered, &of_vertex, &monomials)[0])
+    }
+
+    /// Weights of the unknowns, one each, for u at a point (m).
+    pub(crate) fn values(&self, p: Point) -> Vec<f64> {
+        if self.jumping.is_empty() {
+            return self.combine(&self.frame.values(p));
+        }
+        let [values, ..] = self.jets(p, self.covering(p));
+        values
+    }
+
+    /// Weights of the unknowns for u, u_x, u_y (1/m), u_xx, u_xy and u_yy (1/m²) at a point (m): six rows. `under` is the index of the disc
+    /// over the point, of those with functions here.
+    pub(crate) fn jets(&self, p: Point, under: Option<usize>) -> [Vec<f64>; 6] {
+        let monomials = self.frame.jets(p);
+        let mut rows = monomials.map(|jet| self.combine(&jet));
+        for jumping in &self.jumping {
+            let of_vertex: Jet = std::array::from_fn(|i| rows[i][jumping.column]);
+            let covered = Some(jumping.kink.disc) == under;
+            let jet = jumping.jet(p, covered, &of_vertex, &monomials);
+            rows.iter_mut().zip(jet).for_each(|(row, value)| row.push(value));
+        }
+        rows
     }
 
     /// Number of monomials of its polynomials: 21 for quintics, more at a clamped or supported curve.
     pub(crate) fn monomials(&self) -> usize {
-        if self.unknowns.is_empty() { QUINTIC } else { self.basis.len() / self.unknowns.len() }
+        if self.unknowns.is_empty() { QUINTIC } else { self.basis.len() / self.polynomials() }
     }
 
-    /// Weights of the unknowns, one each, for a value or derivative at a point, from those of the monomials.
+    /// Weights of its polynomials, one each, for a value or derivative at a point, from those of the monomials.
     pub(crate) fn combine(&self, monomials: &[f64; COUNT]) -> Vec<f64> {
-        let mut sums = vec![0.0; self.unknowns.len()];
+        let mut sums = vec![0.0; self.polynomials()];
         if sums.is_empty() {
             return sums;
         }
-        for (m, row) in monomials.iter().zip(self.basis.chunks_exact(self.unknowns.len())) {
+        for (m, row) in monomials.iter().zip(self.basis.chunks_exact(self.polynomials())) {
             sums.iter_mut().zip(row).for_each(|(s, b)| *s += m * b);
         }
         sums

@@ -1,5 +1,6 @@
 //! Assembly of the stiffness and mass matrices of a whole sheet.
 
+use super::across;
 use super::element::Element;
 use super::moments::{Form, Moments};
 use super::monomials::COUNT;
@@ -32,7 +33,7 @@ pub(crate) struct Forms {
 }
 
 /// Stiffness, bending and mass matrices of one triangle, row by row of its unknowns.
-type Shares = [Vec<f64>; 3];
+pub(super) type Shares = [Vec<f64>; 3];
 
 impl Space {
     /// Assembles the matrices of a sheet with the given local properties; triangles are shared among threads.
@@ -42,8 +43,13 @@ impl Space {
         let masses = self.point_masses(fabric);
         let mut sums = [(); 3].map(|()| vec![0.0; symbolic.row_idx().len()]);
         for (batch, elements) in self.elements.chunks(BATCH).enumerate() {
-            let shares: Vec<Shares> =
-                elements.par_iter().map(|element| shares(element, fabric, &rules)).collect();
+            let shares: Vec<Shares> = elements
+                .par_iter()
+                .map(|element| match element.kinks().next() {
+                    Some(_) => across::shares(element, fabric),
+                    None => shares(element, fabric, &rules),
+                })
+                .collect();
             for (i, (element, mut share)) in elements.iter().zip(shares).enumerate() {
                 for (_, weights, mass) in masses.iter().filter(|(e, ..)| *e == batch * BATCH + i) {
                     add_point(&mut share[2], weights, *mass);
@@ -76,7 +82,7 @@ impl Space {
         let place = |(at, mass): &(_, f64)| {
             let (e, at) = self.locate(*at);
             let element = self.elements.get(e)?;
-            Some((e, element.combine(&element.frame.values(at)), *mass))
+            Some((e, element.values(at), *mass))
         };
         fabric.masses().iter().filter_map(place).collect()
     }

@@ -1,11 +1,13 @@
 //! Finite elements of Argyris: continuously differentiable (C1) quintics on triangles, for tensioned plates
 //! of any outline.
 
+mod across;
 mod border;
 mod corner;
 mod element;
 mod forms;
 mod grid;
+mod kink;
 mod moments;
 mod monomials;
 mod overlap;

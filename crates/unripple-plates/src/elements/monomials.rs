@@ -49,6 +49,9 @@ pub(crate) struct Frame {
     pub(crate) scale: f64,
 }
 
+/// Value, first and second derivatives of a function at a point: u, u_x, u_y, u_xx, u_xy, u_yy.
+pub(crate) type Jet = [f64; 6];
+
 /// Values and derivatives of all monomials at a point: rows u, u_x, u_y, u_xx, u_xy, u_yy.
 pub(crate) type Jets = [[f64; COUNT]; 6];
 

@@ -19,30 +19,59 @@ pub(crate) fn overlap(element: &Element, disc: &Disc) -> Vec<Border> {
         return Vec::new();
     }
     let mut kept = Vec::new();
-    let mut angles = Vec::new();
     for border in &element.borders {
-        let mut cuts = crossings(border, disc);
-        angles.extend(cuts.iter().map(|s| {
-            let p = border.at(*s);
-            (p.y - disc.at.y).atan2(p.x - disc.at.x)
-        }));
-        cuts.insert(0, 0.0);
-        cuts.push(1.0);
-        let pieces = cuts.windows(2).map(|w| border.piece(w[0], w[1]));
-        kept.extend(pieces.filter(|piece| piece.at(0.5).distance(disc.at) < disc.radius));
+        let pieces = cut(border, crossings(border, disc));
+        kept.extend(pieces.into_iter().filter(|piece| piece.at(0.5).distance(disc.at) < disc.radius));
     }
+    kept.extend(arcs(element, disc));
+    kept
+}
+
+/// The pieces of borders around the part of a triangle that lies under none of some discs, which do not touch each other.
+pub(crate) fn uncovered(element: &Element, discs: &[&Disc]) -> Vec<Border> {
+    let mut kept = Vec::new();
+    for border in &element.borders {
+        let mut cuts: Vec<f64> = discs.iter().flat_map(|disc| crossings(border, disc)).collect();
+        cuts.sort_by(f64::total_cmp);
+        let outside =
+            |piece: &Border| discs.iter().all(|disc| piece.at(0.5).distance(disc.at) >= disc.radius);
+        kept.extend(cut(border, cuts).into_iter().filter(outside));
+    }
+    for arc in discs.iter().flat_map(|disc| arcs(element, disc)) {
+        kept.push(Border { from: arc.to, to: arc.from, ..arc });
+    }
+    kept
+}
+
+/// Whether a disc's rim passes through a triangle.
+pub(crate) fn crosses(element: &Element, disc: &Disc) -> bool {
+    !arcs(element, disc).is_empty()
+}
+
+/// The pieces of a border between cuts at ascending parameters.
+fn cut(border: &Border, mut cuts: Vec<f64>) -> Vec<Border> {
+    cuts.insert(0, 0.0);
+    cuts.push(1.0);
+    cuts.windows(2).map(|w| border.piece(w[0], w[1])).collect()
+}
+
+/// The arcs of a disc's rim within a triangle, anticlockwise around the disc.
+fn arcs(element: &Element, disc: &Disc) -> Vec<Border> {
+    let at_cut = |(border, s): (&Border, f64)| {
+        let p = border.at(s);
+        (p.y - disc.at.y).atan2(p.x - disc.at.x)
+    };
+    let cuts = |border| crossings(border, disc).into_iter().map(move |s| (border, s));
+    let mut angles: Vec<f64> = element.borders.iter().flat_map(cuts).map(at_cut).collect();
     angles.sort_by(f64::total_cmp);
     let first = angles.first().copied().unwrap_or(0.0);
     let ends = angles.iter().skip(1).copied().chain([first + TAU]);
     let starts = angles.iter().copied().chain(angles.is_empty().then_some(0.0));
-    for (start, end) in starts.zip(ends) {
+    let whole = starts.zip(ends).map(|(start, end)| {
         let side = Side::Arc { centre: disc.at, radius: disc.radius, start, sweep: end - start };
-        let arc = Border { side, from: 0.0, to: 1.0, held: None };
-        if element.depth(arc.at(0.5)) > 0.0 {
-            kept.push(arc);
-        }
-    }
-    kept
+        Border { side, from: 0.0, to: 1.0, held: None }
+    });
+    whole.filter(|arc| element.depth(arc.at(0.5)) > 0.0).collect()
 }
 
 /// Parameters at which a border crosses a disc's rim, ascending.

@@ -38,7 +38,8 @@ impl Rules {
 }
 
 impl Rule {
-    fn new(plain: usize, curved: usize) -> Self {
+    /// A rule with as many points along rays and straight borders, and along curves.
+    pub(crate) fn new(plain: usize, curved: usize) -> Self {
         let rule = |count| gauss(count).into_iter().map(|(x, w)| (0.5 * (1.0 + x), 0.5 * w)).collect();
         Self { radial: rule(plain), straight: rule(plain), curved: rule(curved) }
     }

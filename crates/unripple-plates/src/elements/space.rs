@@ -19,7 +19,7 @@ pub(crate) struct Space {
     pub(super) elements: Vec<Element>,
     /// The grid by which a point's triangle is found.
     pub(super) grid: Grid,
-    unknowns: usize,
+    pub(super) unknowns: usize,
 }
 
 impl Space {
@@ -80,7 +80,7 @@ impl Space {
     pub(crate) fn weights(&self, point: Point) -> (&[usize], Vec<f64>) {
         let (element, point) = self.locate(point);
         let Some(element) = self.elements.get(element) else { return (&[], Vec::new()) };
-        (&element.unknowns, element.combine(&element.frame.values(point)))
+        (&element.unknowns, element.values(point))
     }
 
     #[cfg(test)]
@@ -88,7 +88,7 @@ impl Space {
     pub(crate) fn derivatives(&self, point: Point) -> (&[usize], [Vec<f64>; 6]) {
         let (element, point) = self.locate(point);
         let Some(element) = self.elements.get(element) else { return (&[], Default::default()) };
-        (&element.unknowns, element.frame.jets(point).map(|jet| element.combine(&jet)))
+        (&element.unknowns, element.jets(point, element.covering(point)))
     }
 }
 
@@ -111,7 +111,7 @@ fn border(mesh: &Mesh, edge: usize, ends: [Point; 2]) -> Border {
 }
 
 /// The middle of an edge, on a curved side by the parameter of the curve.
-fn middle(mesh: &Mesh, edge: usize) -> Middle {
+pub(super) fn middle(mesh: &Mesh, edge: usize) -> Middle {
     let ends = mesh.edges[edge].ends.map(|v| mesh.vertices[v].at);
     let border = border(mesh, edge, ends);
     Middle {

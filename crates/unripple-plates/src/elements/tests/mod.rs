@@ -3,6 +3,7 @@
 mod bessel;
 mod circles;
 mod fabrics;
+mod kinks;
 mod meshes;
 mod patch;
 mod readout;

@@ -78,7 +78,7 @@ fn modes(
     guard(surface, bounds, plan)?;
     observed.part(|| "triangles".into());
     let mesh = Mesh::new(&surface.outline, &plan.sizing())?;
-    let space = Space::new(&mesh, fabric.bends());
+    let space = Space::new(&mesh, fabric.bends()).with_kinks(&mesh, fabric);
     observed.part(|| "matrices".into());
     let forms = space.assemble(fabric);
     let observed = observed.within(format!("{} unknowns", forms.mass.nrows()));
