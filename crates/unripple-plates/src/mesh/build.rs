@@ -47,7 +47,7 @@ impl Mesh {
         let rims = Rims::new(outline)?;
         check_count(&rims, outline.area(), sizing)?;
         for i in 0..TRIES {
-            let cut = cut(&rims, sizing, 2.0_f64.powi(i));
+            let cut = cut(&rims, sizing, sizing.finer * 2.0_f64.powi(i));
             let made = sketch(&rims, &cut, sizing).and_then(|sketch| assemble(&rims, &cut, sketch));
             if let Some(mesh) = made {
                 return Ok(mesh);

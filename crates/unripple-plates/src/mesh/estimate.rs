@@ -3,7 +3,7 @@
 use super::region::Region;
 use super::rim::cut;
 use super::sizing::Sizing;
-use super::{Mesh, field::Field, field::GROWTH};
+use super::{Mesh, field::Field};
 use crate::PhysicsError;
 use std::f64::consts::PI;
 use unripple_core::plane::{Bounds, Rims};
@@ -32,7 +32,7 @@ impl Mesh {
         if rough > COUNTED {
             return Ok(rough as usize);
         }
-        let cut = cut(&rims, sizing, 1.0);
+        let cut = cut(&rims, sizing, sizing.finer);
         let at = |i: usize| cut.vertices[i].at;
         let region = Region::new(cut.edges.iter().map(|(ends, _)| ends.map(at)).collect());
         let all: Vec<Point> = cut.vertices.iter().map(|v| v.at).collect();
@@ -66,10 +66,11 @@ fn rough(rims: &Rims, area: f64, sizing: &Sizing) -> f64 {
     };
     let layer = sizing.edge_size.map_or(0.0, |edge| {
         let extra = (1.0 / edge - 1.0 / sizing.size).max(0.0);
-        length(true) * extra * (1.0 / (GROWTH * 0.75_f64.sqrt()) + 0.5)
+        length(true) * extra * (1.0 / (sizing.growth * 0.75_f64.sqrt()) + 0.5)
     });
     let near = sizing.near.iter().map(|(_, reach, edge)| (PI * reach * reach).min(area) / each(*edge));
-    inside + 0.5 * (length(true) + length(false)) / sizing.size + layer + near.sum::<f64>()
+    let rims = 0.5 * (length(true) + length(false)) / sizing.size;
+    inside + rims + layer + near.sum::<f64>()
 }
 
 /// The integral of 1/(h² √¾) over the part of a box that lies within the region, with h the desired edge length.

@@ -18,40 +18,41 @@ pub(super) struct Source {
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     size: f64,
+    growth: f64,
     sources: Vec<Source>,
     tree: Tree,
 }
 
-/// Growth of the edge length per distance: along a line away from a source each edge is e^0.65 = 1.9 times as long as the one
-/// before. With twice this value, meshes have fewer triangles, of worse shape.
-pub(super) const GROWTH: f64 = 0.65;
+/// Largest growth of the edge length per distance: along a line away from a source each edge is e^0.65 = 1.9 times as long as the
+/// one before. With twice this value, meshes have fewer triangles, of worse shape.
+pub(crate) const GROWTH: f64 = 0.65;
 /// Sources of more than this share of the common length are ignored: they would cost a search at every place for edges at
 /// most 15 % shorter.
 const NEARLY: f64 = 0.85;
 
 impl Field {
-    /// A field of edges no longer than `size` (m).
-    pub(super) fn new(size: f64, sources: impl IntoIterator<Item = Source>) -> Self {
+    /// A field of edges no longer than `size` (m), longer by `growth` per distance from each source.
+    pub(super) fn new(size: f64, growth: f64, sources: impl IntoIterator<Item = Source>) -> Self {
         let sources: Vec<Source> = sources.into_iter().filter(|s| s.edge < NEARLY * size).collect();
         let boxes: Vec<(Bounds, f64)> =
             sources.iter().map(|s| (Bounds::around(&[s.at], s.reach), s.edge)).collect();
-        Self { size, tree: Tree::new(&boxes), sources }
+        Self { size, growth, tree: Tree::new(&boxes), sources }
     }
 
     /// The desired edge length at a point (m), in metres.
     pub(super) fn at(&self, p: Point) -> f64 {
         let mut least = self.size;
-        let open = |least: &f64, node: &Node| node.least + GROWTH * node.bounds.distance(p) < *least;
+        let open = |least: &f64, node: &Node| node.least + self.growth * node.bounds.distance(p) < *least;
         self.tree.search(&mut least, open, |least, i| {
             let s = &self.sources[i];
-            *least = least.min(s.edge + GROWTH * (s.at.distance(p) - s.reach).max(0.0));
+            *least = least.min(s.edge + self.growth * (s.at.distance(p) - s.reach).max(0.0));
         });
         least
     }
 
     /// Whether the desired edge length is the common one everywhere in a box.
     pub(super) fn is_even(&self, bounds: &Bounds) -> bool {
-        let shorter = |edge: f64, apart: f64| edge + GROWTH * apart < self.size;
+        let shorter = |edge: f64, apart: f64| edge + self.growth * apart < self.size;
         let mut even = true;
         let open = |even: &bool, node: &Node| *even && shorter(node.least, node.bounds.apart(bounds));
         self.tree.search(&mut even, open, |even, i| {

@@ -17,7 +17,8 @@ mod williams;
 
 use unripple_core::{Edge, Point, Side};
 
-pub(crate) use corner::{Corner, corners};
+pub(crate) use corner::{Corner, corners, singular, unresolved};
+pub(crate) use field::GROWTH;
 pub(crate) use sizing::Sizing;
 
 /// A mesh of triangles that conforms to the outline; along curved sides an edge stands for a piece of the curve.

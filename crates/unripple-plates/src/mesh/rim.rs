@@ -33,16 +33,16 @@ pub(super) struct Cut {
     pub(super) field: Field,
 }
 
-/// Cuts rims for a sizing, and finer by the factor `finer`, at least 1, on curves and in narrow places.
+/// Cuts rims for a sizing, and finer by the factor `finer` on curves and in narrow places.
 pub(super) fn cut(rims: &Rims, sizing: &Sizing, finer: f64) -> Cut {
     let wanted = Wanted { rims, sizing, finer };
     let given = wanted.given();
-    let mut field = Field::new(sizing.size, given.iter().copied());
+    let mut field = Field::new(sizing.size, sizing.growth, given.iter().copied());
     let mut spans = Vec::new();
     for _ in 0..ROUNDS {
         spans = wanted.spans(&field);
         let own = spans.iter().flatten().map(|span| wanted.source(span));
-        field = Field::new(sizing.size, given.iter().copied().chain(own));
+        field = Field::new(sizing.size, sizing.growth, given.iter().copied().chain(own));
     }
     join(rims, &spans, |edges| {
         let own = edges.map(|span| {
@@ -50,7 +50,7 @@ pub(super) fn cut(rims: &Rims, sizing: &Sizing, finer: f64) -> Cut {
             let at = side.at(0.5 * (span.from + span.to));
             Source { at, reach: 0.0, edge: side.at(span.from).distance(side.at(span.to)) }
         });
-        Field::new(sizing.size, given.iter().copied().chain(own.collect::<Vec<_>>()))
+        Field::new(sizing.size, sizing.growth, given.iter().copied().chain(own.collect::<Vec<_>>()))
     })
 }
 

@@ -1,6 +1,8 @@
 //! The desired edge lengths of a mesh.
 
 use super::corner::{Corner, smallest_edge};
+#[cfg(test)]
+use super::field::GROWTH;
 use crate::PhysicsError;
 use unripple_core::{Point, require};
 
@@ -17,20 +19,25 @@ pub(crate) struct Sizing {
     pub(crate) corners: Vec<f64>,
     /// Greatest length along rims that are clamped or supported, in metres.
     pub(crate) edge_size: Option<f64>,
+    /// Growth of the edge length per distance from shorter edges, more than 0 and at most [`GROWTH`](super::GROWTH).
+    pub(crate) growth: f64,
+    /// Factor by which edges are shorter along curved rims and in narrow places than a mesh needs to follow them; 1 is usual.
+    pub(crate) finer: f64,
 }
 
 impl Sizing {
     /// Edges of one length `size` (m) everywhere.
     #[cfg(test)]
     pub(crate) fn even(size: f64) -> Self {
-        Self { size, near: Vec::new(), corners: Vec::new(), edge_size: None }
+        let (near, corners) = (Vec::new(), Vec::new());
+        Self { size, near, corners, edge_size: None, growth: GROWTH, finer: 1.0 }
     }
 
     /// This sizing with edges short enough at the corners of an outline for eigenvalues of the relative
     /// `accuracy`.
     pub(crate) fn refined(mut self, corners: &[Corner], bending: bool, accuracy: f64) -> Self {
         let smallest = |corner: &Corner| {
-            let share = smallest_edge(corner.angle, corner.edges, bending, accuracy);
+            let share = smallest_edge(corner, self.size, bending, accuracy);
             if share < 1.0 { share * self.size } else { f64::INFINITY }
         };
         self.corners = corners.iter().map(smallest).collect();
@@ -53,6 +60,8 @@ impl Sizing {
             require("reach of short edges in m", *reach >= 0.0, "0 or more", *reach)?;
             positive("edge length near a place in m", *edge)?;
         }
+        positive("growth of edge lengths per distance", self.growth)?;
+        positive("fineness of edges along curved rims", self.finer)?;
         let corner = |edge: &f64| {
             if *edge > 0.0 { Ok(()) } else { positive("edge length at a corner in m", *edge) }
         };

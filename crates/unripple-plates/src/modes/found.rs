@@ -10,6 +10,6 @@ pub(super) struct Found {
     pub(super) bending_shares: Vec<f64>,
     /// The mass-normalised shapes.
     pub(super) shapes: Box<dyn Shapes>,
-    /// Estimated largest relative error of a frequency.
+    /// A bound of the relative error of any frequency.
     pub(super) error: f64,
 }

@@ -46,8 +46,10 @@ impl Modes {
     /// All other outlines, holes, springs at edges, orthotropy, profiles and scatterers are solved with continuously differentiable
     /// quintic elements on a mesh (Argyris, Fried and Scharpf 1968), curved along curved edges and graded towards singular corners.
     /// No mode is missed: the number of modes is known from the signs of pivots (Sylvester's law of inertia). Frequencies converge from
-    /// above with the seventh to eighth power of the edge length. The results of two meshes are compared, and the mesh is refined until
-    /// they agree to `accuracy`.
+    /// above with the seventh to eighth power of the edge length. The error is bounded from three meshes, each finer than the one before,
+    /// by the rate at which they converge, and the mesh is refined until it is below `accuracy`; where the rate is too slow for that, the
+    /// accuracy is refused. A uniform isotropic plate supported along a convex polygon has the modes of the membrane on it
+    /// (Conway 1961), and is solved as one.
     ///
     /// Air is an added mass ρ_0/√(k² - (ω/c_0)²) on each side, with k the wavenumber at the mode's frequency in vacuum. Modes faster
     /// than sound radiate instead, which adds to their decay rate ([`Medium`](crate::Medium)).
@@ -109,7 +111,8 @@ impl Modes {
         &self.bending_shares
     }
 
-    /// Estimated largest relative error of a frequency, dimensionless; 0 where modes are exact.
+    /// A bound of the relative error of any frequency, dimensionless; 0 where modes are exact. On a mesh it is about seven times the
+    /// true error, from 1.2 to 300 times on sheets that are known by another route.
     pub fn error(&self) -> f64 {
         self.error
     }

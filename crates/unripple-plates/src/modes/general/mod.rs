@@ -1,5 +1,7 @@
-//! Modes of any sheet by quintic finite elements on a mesh, refined until frequencies no longer change.
+//! Modes of any sheet by quintic finite elements on a mesh, refined until the error of the frequencies is the one asked for.
 
+mod polygon;
+mod rates;
 mod sizing;
 
 use super::bounds::Bounds;
@@ -10,53 +12,83 @@ use crate::elements::{MeshShapes, Space};
 use crate::fabric::Fabric;
 use crate::mesh::Mesh;
 use crate::spectrum::{self, Pairs};
+use rates::Level;
 use sizing::Plan;
+use unripple_core::plane::doubled;
 use unripple_core::{Observed, Surface};
 use unripple_linalg::{ColRef, Mat, sparse_times};
 
-/// Largest number of meshes solved, each finer than the one before by 1.25 to 2, so that the last is up to 32 times finer than
-/// the first. More would only delay the failure if the accuracy is out of reach.
+/// Largest number of meshes solved after the first two, each finer than the one before by 1.25 to 1.6. More would only delay the failure
+/// if the accuracy is out of reach.
 const ROUNDS: usize = 6;
 
-/// Ratio of edge lengths of the first two meshes that are compared: the coarser one costs about half as much as the finer.
-/// Nearer to 1, their difference, from which the error is estimated, is lost in rounding.
+/// Ratio of edge lengths of the first three meshes: the coarser ones cost about a half and a quarter of the third. Nearer to 1, their
+/// differences, from which the error is estimated, are lost in rounding.
 const COARSER: f64 = 1.3;
 
-/// The share of the previous error that a refinement must fall below to count as progress: with edges 1.25 times
+/// The share of the least error so far that a refinement must fall below to count as progress: with edges 1.25 times
 /// shorter, sixth order leaves 0.26. At 1, refinement goes on when only rounding errors are left.
 const STALLED: f64 = 0.8;
+
+/// Rounds without progress after which the accuracy counts as out of reach: a rate that was measured too fast by chance makes the next
+/// round look worse.
+const PATIENCE: usize = 2;
 
 /// Largest residual of an eigenpair; the relative error of its eigenvalue is about its square, 1e-10. Ten
 /// times more would allow errors of 1e-8.
 const RESIDUAL: f64 = 1e-5;
 
-/// Order of convergence in the edge length that is assumed to estimate the errors of frequencies; on straight sides it is
-/// eight, on curved ones and at graded corners less.
-const ORDER: i32 = 6;
+/// Highest order in the edge length at which frequencies converge, of a membrane and with bending.
+const ORDERS: [f64; 2] = [10.0, 8.0];
 
 /// Modes of a surface's sheet below the top of `bounds`.
 pub(super) fn solve(surface: &Surface, bounds: &Bounds) -> Result<Found, PhysicsError> {
+    match polygon::membrane(surface, bounds)? {
+        Some((membrane, as_membrane)) => {
+            let (solution, error) = converged(&membrane, &as_membrane).map_err(polygon::refusal)?;
+            Ok(found(polygon::plate(solution, &as_membrane, bounds), bounds, polygon::of_plate(error)))
+        }
+        None => {
+            let (solution, error) = converged(surface, bounds)?;
+            Ok(found(solution, bounds, error))
+        }
+    }
+}
+
+/// The modes on a mesh fine enough for the accuracy, and a bound of the relative error of their frequencies.
+fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), PhysicsError> {
     let fabric = Fabric::of(surface)?;
+    let order = ORDERS[usize::from(fabric.bends())];
     let mut plan = Plan::new(surface, &fabric, bounds)?;
-    let mesh = |number: usize| Observed::here().within(format!("mesh {number} of {} at most", 1 + ROUNDS));
-    let mut coarse = modes(surface, &fabric, bounds, &plan.coarser(COARSER), &mesh(1))?;
-    let (mut error, mut last) = (f64::INFINITY, f64::INFINITY);
-    for round in 0..ROUNDS {
-        let fine = modes(surface, &fabric, bounds, &plan, &mesh(2 + round))?;
-        let ratio = if plan.ratio() > 1.0 { plan.ratio() } else { COARSER };
-        error = change(&coarse.pairs.values, &fine.pairs.values) / (ratio.powi(ORDER) - 1.0);
+    let coarse = plan.coarser(COARSER);
+    // The finest first: what memory does not hold is refused before anything is solved.
+    guard(surface, bounds, &plan)?;
+    let mesh = |number: usize| Observed::here().within(format!("mesh {number} of {} at most", 2 + ROUNDS));
+    let mut levels = Vec::new();
+    for plan in [coarse.coarser(COARSER), coarse] {
+        levels.push(modes(surface, &fabric, bounds, &plan, &mesh(1 + levels.len()))?.level());
+    }
+    let (mut best, mut stalled) = (f64::INFINITY, 0);
+    for _ in 0..ROUNDS {
+        let fine = match modes(surface, &fabric, bounds, &plan, &mesh(1 + levels.len())) {
+            // The first mesh fitted: what is out of reach is the accuracy.
+            Err(PhysicsError::TooLarge { .. }) if best.is_finite() => break,
+            fine => fine?,
+        };
+        levels.push(fine.level());
+        let error = rates::error(&levels, order) + plan.unresolved();
         if error <= bounds.accuracy {
-            return Ok(found(fine, bounds, error));
+            return Ok((fine, error));
         }
         // The rest is rounding, or a corner that would need too many triangles.
-        if error > STALLED * last {
+        stalled = if error > STALLED * best { stalled + 1 } else { 0 };
+        if stalled == PATIENCE {
             break;
         }
-        last = error;
-        coarse = fine;
+        best = best.min(error);
         plan = plan.refined(error, bounds.accuracy);
     }
-    Err(PhysicsError::NotConverged { max_hz: bounds.max_hz, expected: bounds.accuracy, found: error })
+    Err(PhysicsError::NotConverged { max_hz: bounds.max_hz, expected: bounds.accuracy, found: best })
 }
 
 /// A solution on one mesh.
@@ -65,6 +97,15 @@ struct Solution {
     pairs: Pairs,
     /// Bending's share of each mode's elastic energy.
     bending_shares: Vec<f64>,
+    /// Mean edge length, see [`mean_edge`], in metres.
+    edge: f64,
+}
+
+impl Solution {
+    /// What later meshes are compared with.
+    fn level(&self) -> Level {
+        Level { edge: self.edge, squares: self.pairs.values.clone() }
+    }
 }
 
 /// Meshes a sheet as planned, assembles its matrices and solves for the modes below the top.
@@ -97,7 +138,19 @@ fn modes(
         if square > 0.0 { (energy / square).clamp(0.0, 1.0) } else { 0.0 }
     };
     let bending_shares = (0..pairs.values.len()).map(share).collect();
-    Ok(Solution { space, pairs, bending_shares })
+    Ok(Solution { space, pairs, bending_shares, edge: mean_edge(&mesh) })
+}
+
+/// The geometric mean over the sheet of the edge length (m) of equilateral triangles as large as those of a mesh: that of most of the
+/// sheet, whatever the number of triangles at its corners.
+fn mean_edge(mesh: &Mesh) -> f64 {
+    let (mut sheet, mut logs) = (0.0, 0.0);
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.vertices.map(|v| mesh.vertices[v].at);
+        let area = 0.5 * doubled(a, b, c);
+        (sheet, logs) = (sheet + area, logs + area * area.ln());
+    }
+    (f64::exp(logs / sheet) / 0.1875_f64.sqrt()).sqrt()
 }
 
 /// Sets the eigenvalues of rigid-body modes, which are not 0 by rounding, to 0: frequencies below a thousandth of that
@@ -108,20 +161,9 @@ fn settled(mut pairs: Pairs, bounds: &Bounds) -> Pairs {
     pairs
 }
 
-/// The largest relative difference of two lists of frequencies, given as squares, up to the end of the shorter; infinite
-/// if the finer mesh has over a tenth and two more.
-fn change(coarse: &[f64], fine: &[f64]) -> f64 {
-    let common = coarse.len().min(fine.len());
-    if fine.len() as f64 > 1.1 * coarse.len() as f64 + 2.0 {
-        return f64::INFINITY;
-    }
-    let differ = |(a, b): (&f64, &f64)| if *b > 0.0 { (0.5 * (a / b - 1.0)).abs() } else { 0.0 };
-    coarse[..common].iter().zip(fine).map(differ).fold(0.0, f64::max)
-}
-
 /// The modes of a solution, with the air's mass and their sign.
 fn found(solution: Solution, bounds: &Bounds, error: f64) -> Found {
-    let Solution { space, pairs, bending_shares } = solution;
+    let Solution { space, pairs, bending_shares, .. } = solution;
     let (omegas, factors): (Vec<f64>, Vec<f64>) =
         pairs.values.iter().map(|square| bounds.loaded(square.max(0.0))).unzip();
     let signed = |m: usize| factors[m] * sign(pairs.vectors.col(m));

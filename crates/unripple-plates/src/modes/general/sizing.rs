@@ -1,20 +1,35 @@
-//! Mesh size for a band and an accuracy, with eighth-order convergence assumed.
+//! Mesh size for a band and an accuracy, with eighth-order convergence assumed; what is singular is refined at the same pace.
 
 use crate::Medium;
 use crate::PhysicsError;
 use crate::fabric::{Fabric, Local};
-use crate::mesh::{Corner, Mesh, Sizing, corners};
+use crate::mesh::{Corner, GROWTH, Mesh, Sizing, corners, singular, unresolved};
 use crate::modes::bounds::Bounds;
 use std::f64::consts::PI;
-use unripple_core::{Edge, Outline, Point, ScattererKind, Surface};
+use unripple_core::{Edge, Outline, Point, Scatterer, ScattererKind, Surface};
 
-/// Edge length times wavenumber at the top of the band for which frequencies are accurate to 1e-3: edges of 0.56
+/// Edge length times wavenumber at the top of the band for which errors of frequencies are stated to be about 1e-3: edges of 0.45
 /// wavelengths. Halved, the first mesh has four times the triangles.
-const FILL: f64 = 3.5;
+const FILL: f64 = 2.8;
 
 /// Order of convergence in the edge length, from which the edge length for an accuracy follows. If it were lower, first
 /// meshes would be finer than needed.
 const ORDER: f64 = 8.0;
+
+/// Order in the edge length at which, from one mesh to the next, the errors at corners and masses are made to fall: that at which errors
+/// are sure to fall elsewhere. So a comparison of meshes tells them alike.
+pub(super) const PACE: f64 = 6.0;
+
+/// Share of the accuracy asked for that all corners together may take.
+const AT_CORNERS: f64 = 0.2;
+
+/// Accuracy up to which edges grow by [`GROWTH`] per distance from corners and masses; for more accuracy by less, since the error that
+/// rings of triangles around them leave falls as the eighth power of their growth.
+const COMMON: f64 = 1e-4;
+
+/// Least growth of edges per distance: edges along a line away from a corner get longer by a tenth each. Halved, a corner would take
+/// four times the triangles.
+const LEAST_GROWTH: f64 = 0.1;
 
 /// Least and largest edge length times wavenumber, whatever the accuracy: 21 and 1.6 edges per
 /// wavelength. Refinements resolve what these do not.
@@ -28,23 +43,46 @@ const UNKNOWNS: f64 = 9.0;
 /// bending gives way to tension. With twice this value, the layer is resolved half as well, and a refinement follows.
 const LAYER: f64 = 4.0;
 
+/// Longest edge under a disc at an accuracy of 1e-3, in radii: its rim takes a dozen edges. With twice this value, it takes six, and a
+/// refinement follows.
+const IN_DISC: f64 = 0.5;
+
 /// Number of places along each side of the bounding box at which the sheet's properties are sampled. Variation within a
 /// thirty-second of a side may be missed, and costs a refinement.
 const LOOKS: usize = 33;
+
+/// A point mass, and the edge length there.
+#[derive(Clone, Copy, Debug)]
+struct AtMass {
+    at: Point,
+    /// Edge length, in metres.
+    edge: f64,
+}
+
+/// A glued disc, and the edge length under it and around its rim, all in metres.
+#[derive(Clone, Copy, Debug)]
+struct AtDisc {
+    at: Point,
+    radius: f64,
+    edge: f64,
+}
 
 /// The edge lengths of a mesh for a surface and an accuracy.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     /// Edge length inside, in metres.
     size: f64,
-    /// Factor by which the last refinement shortened the edges.
-    ratio: f64,
-    /// Accuracy that corners are graded for.
+    /// Accuracy that each corner is graded for.
     accuracy: f64,
+    /// Growth of edges per distance from corners and masses.
+    growth: f64,
+    /// Factor by which edges along curves and in narrow places are shorter than needed to follow them.
+    finer: f64,
     /// Largest edge along held rims, as a share of `size`; 1 where there is no layer.
     layer: f64,
     bends: bool,
-    near: Vec<(Point, f64, f64)>,
+    masses: Vec<AtMass>,
+    discs: Vec<AtDisc>,
     /// Where sides meet.
     corners: Vec<Corner>,
     /// Largest wavenumber anywhere, in rad/m.
@@ -66,22 +104,23 @@ impl Plan {
         let size = fill / wavenumber;
         let clamped =
             surface.outline.loops().iter().any(|rim| rim.sides.iter().any(|(_, e)| *e == Edge::Clamped));
-        let layer =
-            locals.iter().filter(|_| clamped).map(|l| layer(l) * LAYER * finer / size).fold(1.0, f64::min);
-        let near = surface.sheet.uneven.scatterers.iter().map(|scatterer| match scatterer.kind {
-            ScattererKind::Mass(_) => (scatterer.at, 0.0, 0.25 * size),
-            ScattererKind::Disc { radius, .. } => {
-                (scatterer.at, 1.1 * radius, (0.5 * radius).min(0.5 * size))
-            }
-        });
+        let narrowest = locals.iter().map(layer).fold(f64::INFINITY, f64::min);
+        let in_layer = (narrowest * LAYER * finer).min(size);
+        let layer = if clamped { in_layer / size } else { 1.0 };
+        let masses = masses(surface, size, bounds.accuracy);
+        let discs = discs(surface, in_layer, finer);
         let corners = corners(&surface.outline)?;
+        let at_corners = AT_CORNERS * bounds.accuracy;
+        let count = singular(&corners, size, fabric.bends(), at_corners).max(1);
         Ok(Self {
             size,
-            ratio: 1.0,
-            accuracy: bounds.accuracy,
+            accuracy: at_corners / count as f64,
+            growth: GROWTH * (bounds.accuracy / COMMON).powf(1.0 / ORDER).min(1.0),
+            finer: 1.0,
             layer,
             bends: fabric.bends(),
-            near: near.collect(),
+            masses,
+            discs,
             corners,
             wavenumber,
             area: surface.outline.area(),
@@ -91,40 +130,58 @@ impl Plan {
     /// The sizing for the mesh generator.
     pub(super) fn sizing(&self) -> Sizing {
         let edge_size = (self.layer < 1.0).then_some(self.layer * self.size);
-        let sizing = Sizing { size: self.size, near: self.near.clone(), corners: Vec::new(), edge_size };
-        sizing.refined(&self.corners, self.bends, self.accuracy)
+        let masses = self.masses.iter().map(|mass| (mass.at, 0.0, mass.edge));
+        let discs = self.discs.iter().map(|disc| (disc.at, 1.1 * disc.radius, disc.edge));
+        let sizing = Sizing {
+            size: self.size,
+            near: masses.chain(discs).collect(),
+            corners: Vec::new(),
+            edge_size,
+            growth: GROWTH,
+            finer: self.finer,
+        };
+        let sizing = sizing.refined(&self.corners, self.bends, self.accuracy);
+        let graded = sizing.corners.iter().any(|edge| edge.is_finite()) || !self.masses.is_empty();
+        Sizing { growth: if graded { self.growth.clamp(LEAST_GROWTH, GROWTH) } else { GROWTH }, ..sizing }
     }
 
-    /// A plan with edges `ratio` times longer.
+    /// A plan with edges `ratio` times longer; at corners and masses so much longer that the errors by them rise as the power [`PACE`]
+    /// of the ratio.
     pub(super) fn coarser(&self, ratio: f64) -> Self {
-        let near = self.near.iter().map(|(at, reach, size)| (*at, *reach, size * ratio)).collect();
+        // At a mass errors are as the edge squared.
+        let at_mass = ratio.powf(0.5 * PACE);
+        let lighter = |mass: &AtMass| AtMass { edge: mass.edge * at_mass, ..*mass };
+        let wider = |disc: &AtDisc| AtDisc { edge: disc.edge * ratio, ..*disc };
         Self {
             size: self.size * ratio,
-            near,
-            ratio: 1.0 / ratio,
-            accuracy: 4.0 * self.accuracy,
+            masses: self.masses.iter().map(lighter).collect(),
+            discs: self.discs.iter().map(wider).collect(),
+            accuracy: self.accuracy * ratio.powf(PACE),
+            growth: self.growth * ratio,
+            finer: self.finer / ratio,
             ..self.clone()
         }
     }
 
-    /// A plan likely to have the relative error `wanted`, after this one had `error`; edges are shortened by at most a factor
-    /// of 2.
-    pub(super) fn refined(&self, error: f64, wanted: f64) -> Self {
-        // Somewhat finer than the error requires; at least 1.25, so that the next difference is above rounding,
-        // at most 2, which is four times the triangles.
-        let ratio = (1.3 * error / wanted).powf(1.0 / (ORDER - 1.0)).clamp(1.25, 2.0);
-        Self { ratio, accuracy: 0.25 * self.accuracy, ..self.coarser(1.0 / ratio) }
+    /// The relative error of frequencies by what no comparison with a coarser plan shows.
+    pub(super) fn unresolved(&self) -> f64 {
+        unresolved(&self.corners, self.size, self.bends, self.accuracy, self.sizing().growth)
     }
 
-    /// The factor by which this plan is finer than the plan before.
-    pub(super) fn ratio(&self) -> f64 {
-        self.ratio
+    /// A plan likely to have the relative error `wanted`, after this one had `error`; edges are shortened by at most a factor
+    /// of 1.6.
+    pub(super) fn refined(&self, error: f64, wanted: f64) -> Self {
+        // Somewhat finer than the error requires; at least 1.25, so that the next difference is above rounding,
+        // at most 1.6, which is two and a half times the triangles and hides little of what falls slowly.
+        let ratio = (1.3 * error / wanted).powf(1.0 / (ORDER - 1.0)).clamp(1.25, 1.6);
+        self.coarser(1.0 / ratio)
     }
 
     /// This plan for a top wavenumber lower by the factor `share`.
     pub(super) fn lower(&self, share: f64) -> Self {
         let share = share.max(1e-6);
-        Self { wavenumber: self.wavenumber * share, ..self.coarser(1.0 / share) }
+        let masses = self.masses.iter().map(|mass| AtMass { edge: mass.edge / share, ..*mass }).collect();
+        Self { size: self.size / share, wavenumber: self.wavenumber * share, masses, ..self.clone() }
     }
 
     /// Approximate number of unknowns of the plan on an outline.
@@ -136,6 +193,27 @@ impl Plan {
     pub(super) fn modes(&self) -> usize {
         (self.area * self.wavenumber.powi(2) / (4.0 * PI)) as usize + 10
     }
+}
+
+/// Point masses with their edge lengths, for edges of `size` (m) elsewhere and an accuracy.
+fn masses(surface: &Surface, size: f64, accuracy: f64) -> Vec<AtMass> {
+    let share = (accuracy / 1e-3).min(1.0);
+    // Together with `size`, as the root of the accuracy.
+    let edge = 0.25 * size * share.powf(0.5 - 1.0 / ORDER);
+    let masses = surface.sheet.uneven.scatterers.iter().filter(|s| matches!(s.kind, ScattererKind::Mass(_)));
+    masses.map(|mass| AtMass { at: mass.at, edge }).collect()
+}
+
+/// Discs with their edge lengths: at most `in_layer` (m), the length in boundary layers, of which there is one around a stiff disc;
+/// `finer` is the factor for the accuracy.
+fn discs(surface: &Surface, in_layer: f64, finer: f64) -> Vec<AtDisc> {
+    let disc = |scatterer: &Scatterer| match scatterer.kind {
+        ScattererKind::Mass(_) => None,
+        ScattererKind::Disc { radius, .. } => {
+            Some(AtDisc { at: scatterer.at, radius, edge: (IN_DISC * finer * radius).min(in_layer) })
+        }
+    };
+    surface.sheet.uneven.scatterers.iter().filter_map(disc).collect()
 }
 
 /// The properties of the sheet at a grid of places over an outline; a single one for a uniform sheet.

@@ -1,0 +1,76 @@
+//! Supported plates on convex polygons, whose modes are those of a membrane of the same outline.
+//!
+//! On a straight supported side w = 0 and ∇²w = 0, so a mode of the membrane (∇²w + k²w = 0, w = 0) satisfies all conditions of the
+//! plate, and without re-entrant corners there are no others: ρ_s ω² = T k² + D k⁴ (Conway, *J. Appl. Mech.* 28, 288, 1961). The membrane is
+//! far smoother at corners: at one of interior angle α it varies as r^(π/α), so that the energy within r is as r^(2π/α); the plate's
+//! curvature varies as r^(π/α - 2), and its energy as r^(2π/α - 2), which at corners just short of 180° no grading of a mesh resolves. At
+//! re-entrant corners the mode of the membrane has infinite bending energy, and the two differ (Sapondzhyan's paradox).
+
+use super::Solution;
+use crate::modes::bounds::Bounds;
+use crate::{Medium, PhysicsError};
+use std::f64::consts::PI;
+use unripple_core::plane::Rims;
+use unripple_core::{Edge, Surface};
+
+/// Interior angles up to this much above a straight one, in radians, count as straight: rounding of coordinates on one line. The
+/// singular part of the plate's deflection at such a corner is as small.
+const STRAIGHT: f64 = 1e-6;
+
+/// The membrane with the modes of a supported plate on a convex polygon, and the request for its modes with half the error asked for:
+/// a relative error of wavenumbers is up to two of frequencies. `None` for any other surface.
+///
+/// # Errors
+/// [`PhysicsError::Outline`] for an invalid outline.
+pub(super) fn membrane(
+    surface: &Surface,
+    bounds: &Bounds,
+) -> Result<Option<(Surface, Bounds)>, PhysicsError> {
+    if bounds.medium.bending_stiffness <= 0.0 || !surface.sheet.uneven.is_nothing() {
+        return Ok(None);
+    }
+    let rims = Rims::new(&surface.outline)?;
+    let straight = rims.sides.iter().all(|(side, edge)| side.is_straight() && *edge == Edge::Supported);
+    if !straight || rims.angles.iter().any(|angle| *angle > PI + STRAIGHT) {
+        return Ok(None);
+    }
+    let mut membrane = surface.clone();
+    // The tension whose waves at the top have the plate's frequency.
+    let tension = bounds.medium.tension + bounds.medium.bending_stiffness * bounds.k_top.powi(2);
+    (membrane.sheet.young, membrane.sheet.tension) = (0.0, tension);
+    let medium = Medium { tension, bending_stiffness: 0.0, air_sides: 0.0, ..bounds.medium };
+    let as_membrane = Bounds { medium, accuracy: of_membrane(bounds.accuracy), ..*bounds };
+    Ok(Some((membrane, as_membrane)))
+}
+
+/// The modes of the plate from those of its membrane.
+pub(super) fn plate(membrane: Solution, as_membrane: &Bounds, bounds: &Bounds) -> Solution {
+    let Solution { space, mut pairs, mut bending_shares, edge } = membrane;
+    let (of_membrane, of_plate) = (as_membrane.vacuum(), bounds.vacuum());
+    for (square, share) in pairs.values.iter_mut().zip(&mut bending_shares) {
+        let k = of_membrane.wavenumber(square.sqrt());
+        *square = of_plate.omega(k).powi(2);
+        *share = of_plate.bending_share(k);
+    }
+    Solution { space, pairs, bending_shares, edge }
+}
+
+/// The plate's refusal from that of its membrane.
+pub(super) fn refusal(of_membrane: PhysicsError) -> PhysicsError {
+    match of_membrane {
+        PhysicsError::NotConverged { max_hz, expected, found } => {
+            PhysicsError::NotConverged { max_hz, expected: of_plate(expected), found: of_plate(found) }
+        }
+        other => other,
+    }
+}
+
+/// The relative error of the plate's frequencies, as k² + T/D at most, from that of the membrane's.
+pub(super) fn of_plate(error: f64) -> f64 {
+    2.0 * error
+}
+
+/// The relative error of the membrane's frequencies for one of the plate's.
+fn of_membrane(error: f64) -> f64 {
+    0.5 * error
+}

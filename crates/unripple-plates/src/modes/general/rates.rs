@@ -1,0 +1,150 @@
+//! The error of frequencies from three meshes, each finer than the one before, by the rate at which they converge.
+
+use super::sizing::PACE;
+
+/// Frequencies found on a mesh.
+#[derive(Clone, Debug)]
+pub(super) struct Level {
+    /// Its mean edge length, in metres.
+    pub(super) edge: f64,
+    /// ω² of the modes, ascending, in 1/s².
+    pub(super) squares: Vec<f64>,
+}
+
+/// Factor on the estimated error: differences of two unstructured meshes vary by about 2 from one pair of meshes to another. At 2, one
+/// statement in thirty would be below the true error.
+const SAFETY: f64 = 3.0;
+/// Modes on each side of one whose differences are taken together with its own: one difference alone may be small by chance.
+/// Doubled, few modes at the top would hide the rate of more below them.
+const REACH: usize = 2;
+/// Least and greatest order of convergence in the edge length that is taken as measured. The greatest is the one that meshes are made
+/// for everywhere: where smooth parts of the error fall faster, they hide what is left of the others.
+const ORDERS: [f64; 2] = [1.5, PACE];
+/// Order assumed where it could not be measured: the error that is left is about as large as the last difference, if edges are 1.3 times
+/// shorter.
+const ASSUMED: f64 = 2.6;
+/// What is left of rounding in the solution of the eigenvalue problem, relative.
+const ROUNDING: f64 = 2e-9;
+
+/// Least ratio of the mean edges of two meshes that are compared: rims may keep meshes alike that were to differ. Nearer to 1, their
+/// difference says nothing of either.
+const APART: f64 = 1.12;
+
+/// A bound of the relative error of any frequency of the last level, from three of which each is clearly finer than the one before.
+/// `order` is the highest at which any part of the error falls. Infinite unless there are two levels with about as many modes.
+///
+/// Where edges get shorter by a factor a and then by b, an error C h^q leaves differences of the ratio (a^q - 1)/(1 - b^-q), from
+/// which q follows (Richardson), and the error d/(b^q - 1) with d the last difference. That of the difference before, taken to fall as
+/// fast as any does, is a lower limit, so that no chance agreement of two meshes is taken for accuracy.
+pub(super) fn error(levels: &[Level], order: f64) -> f64 {
+    let coarser = |than: &Level| levels.iter().rev().find(|level| level.edge > APART * than.edge);
+    let Some(fine) = levels.last() else { return f64::INFINITY };
+    let Some(middle) = coarser(fine) else { return f64::INFINITY };
+    let Some(last) = differences(&middle.squares, &fine.squares) else { return f64::INFINITY };
+    let coarse = coarser(middle);
+    let before = coarse.and_then(|coarse| differences(&coarse.squares, &middle.squares)).unwrap_or_default();
+    let (a, b) = (coarse.map_or(1.0, |coarse| coarse.edge / middle.edge), middle.edge / fine.edge);
+    let of = |j: usize| {
+        let d = around(&last, j);
+        if before.is_empty() {
+            return d / (b.powf(ASSUMED) - 1.0);
+        }
+        let c = around(&before, j);
+        let measured = d / (b.powf(rate(c / d, [a, b])) - 1.0);
+        measured.max(c / ((a.powf(order) - 1.0) * b.powf(order)))
+    };
+    SAFETY * (0..last.len()).map(of).fold(0.0, f64::max) + ROUNDING
+}
+
+/// The order q for which two successive differences have a ratio, within [`ORDERS`]; a and b are the factors by which edges got shorter.
+fn rate(ratio: f64, [a, b]: [f64; 2]) -> f64 {
+    let of = |q: f64| (a.powf(q) - 1.0) / (1.0 - b.powf(-q));
+    let [mut low, mut high] = ORDERS;
+    if ratio.is_nan() || ratio >= of(high) {
+        return high;
+    }
+    // The ratio rises with the order.
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if of(middle) < ratio { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// The relative differences of two lists of frequencies, given as squares, up to the end of the shorter; `None` if the finer mesh
+/// has over a tenth and two more.
+pub(super) fn differences(coarse: &[f64], fine: &[f64]) -> Option<Vec<f64>> {
+    if fine.len() as f64 > 1.1 * coarse.len() as f64 + 2.0 {
+        return None;
+    }
+    let differ = |(a, b): (&f64, &f64)| if *b > 0.0 { (0.5 * (a / b - 1.0)).abs() } else { 0.0 };
+    Some(coarse.iter().zip(fine).map(differ).collect())
+}
+
+/// The largest of a difference and those of its neighbours; beyond the end, of the last ones.
+fn around(differences: &[f64], j: usize) -> f64 {
+    let j = j.min(differences.len().saturating_sub(1));
+    let end = (j + REACH + 1).min(differences.len());
+    differences[j.saturating_sub(REACH)..end].iter().copied().fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Levels of frequencies whose relative errors are sums of powers of the edge length.
+    fn levels(parts: &[(f64, f64)], finer: [f64; 2]) -> (Vec<Level>, f64) {
+        let of = |h: f64| parts.iter().map(|(c, q)| c * h.powf(*q)).sum::<f64>();
+        let lengths = [1.0, 1.0 / finer[0], 1.0 / (finer[0] * finer[1])];
+        let level = |i: usize| Level {
+            edge: lengths[i],
+            squares: (1..30).map(|m| (f64::from(m) * (1.0 + of(lengths[i]))).powi(2)).collect(),
+        };
+        ((0..3).map(level).collect(), of(lengths[2]))
+    }
+
+    #[test]
+    fn any_mixture_of_rates_is_bounded() {
+        for finer in [[1.3, 1.3], [1.3, 1.6], [1.6, 1.25]] {
+            for fast in [0.0, 1e-4, 1e-3, 1e-2, 0.1] {
+                for (slow, order) in [(1e-4, 3.0), (1e-4, 5.0), (1e-3, 6.0), (3e-3, 7.0)] {
+                    let (levels, exact) = levels(&[(fast, 8.0), (slow, order)], finer);
+                    let stated = error(&levels, 8.0);
+                    assert!(stated > exact, "{finer:?} {fast} {slow} {order}: {stated:e} {exact:e}");
+                    assert!(stated < 20.0 * exact, "{finer:?} {fast} {slow} {order}: {stated:e} {exact:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn chance_agreement_of_two_meshes_is_no_accuracy() {
+        let (mut levels, exact) = levels(&[(1e-3, 7.0)], [1.3, 1.3]);
+        // As if by chance.
+        levels[1].squares = levels[2].squares.iter().map(|s| s * (1.0 + 1e-9)).collect();
+        assert!(error(&levels, 8.0) > 0.5 * exact);
+        // Two meshes alone are taken to converge slowly.
+        let two = error(&levels[..2], 8.0);
+        assert!(two > exact, "{two:e} {exact:e}");
+    }
+
+    #[test]
+    fn meshes_with_unlike_numbers_of_modes_bound_nothing() {
+        let (mut levels, _) = levels(&[(1e-3, 7.0)], [1.3, 1.3]);
+        levels[1].squares.truncate(20);
+        assert!(error(&levels, 8.0).is_infinite() && error(&levels[..1], 8.0).is_infinite());
+    }
+
+    #[test]
+    fn rates_are_those_of_the_errors() {
+        for q in [1.6, 2.5, 4.0, 5.9] {
+            for [a, b] in [[1.3, 1.3], [1.3, 1.6], [1.6, 1.25]] {
+                let h = |x: f64| x.powf(-q);
+                let ratio = (1.0 - h(a)) / (h(a) - h(a * b));
+                assert!((rate(ratio, [a, b]) - q).abs() < 1e-9);
+            }
+        }
+        assert_eq!([1e9, f64::NAN].map(|ratio| rate(ratio, [1.3, 1.3])), [ORDERS[1]; 2]);
+        assert!(rate(1e-9, [1.3, 1.3]) < ORDERS[0] + 1e-9);
+    }
+}
