@@ -1,6 +1,7 @@
 //! Tests of unripple-plates that share one program: a file a kind of truth. What needs a process of its own is beside it.
 
 mod air_oracle;
+mod error_bounds;
 #[path = "../modes_common/mod.rs"]
 mod modes_common;
 mod modes_convergence;
@@ -8,3 +9,5 @@ mod modes_oracle;
 mod outline_oracle;
 #[path = "../round_common/mod.rs"]
 mod round_common;
+#[path = "../truth_common/mod.rs"]
+mod truth_common;

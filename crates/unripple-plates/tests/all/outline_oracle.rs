@@ -133,6 +133,29 @@ fn a_rectangle_is_the_same_by_both_methods() {
 }
 
 #[test]
+fn a_supported_polygon_has_the_shapes_and_shares_of_a_plate() {
+    let mut polygon = polygon(&[(0.0, 0.0), (0.15, 0.0), (0.15, 0.11), (0.0, 0.11)], Edge::Supported);
+    polygon.sheet.air = Air::OneSide;
+    polygon.sheet.decay = Decay::LossFactor(0.01);
+    let mut plain = polygon.clone();
+    plain.outline.shape = Shape::Rectangle { width: 0.15, height: 0.11 };
+    let [found, exact] = [&polygon, &plain].map(|surface| Modes::solve(surface, 1500.0, 1e-6).unwrap());
+    assert!(worst(&found.frequencies_hz(), &exact.frequencies_hz()) < 1e-6);
+    let [shapes, sines] = [&found, &exact].map(|modes| {
+        let mut row = vec![0.0; modes.poles().len()];
+        modes.at(Point::new(0.047, 0.031), &mut row);
+        row
+    });
+    assert!(shapes.len() > 30 && shapes.len() == sines.len());
+    let size = sines.iter().fold(0.0, |most: f64, shape| most.max(shape.abs()));
+    for m in 0..shapes.len() {
+        assert!((found.bending_shares()[m] / exact.bending_shares()[m] - 1.0).abs() < 1e-5);
+        assert!((found.decay_times()[m] / exact.decay_times()[m] - 1.0).abs() < 1e-5);
+        assert!((shapes[m].abs() - sines[m].abs()).abs() < 1e-3 * size, "{m}: {} {}", shapes[m], sines[m]);
+    }
+}
+
+#[test]
 fn a_stadium_and_a_polygon_are_themselves_refined() {
     let mut stadium = round(Edge::Clamped);
     stadium.outline = Outline::new(Shape::Stadium { straight: 0.06, radius: 0.04 });
