@@ -29,6 +29,7 @@ pub mod calibrate;
 pub mod check;
 pub mod commands;
 pub mod compare;
+mod curves;
 pub mod design;
 pub mod device;
 pub mod devices;

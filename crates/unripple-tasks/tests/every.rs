@@ -3,6 +3,8 @@
 
 #[path = "every/by_name.rs"]
 mod by_name;
+#[path = "every/curves.rs"]
+mod curves;
 #[path = "every/given.rs"]
 mod given;
 #[path = "every/reach.rs"]

@@ -2,6 +2,7 @@
 
 mod check;
 mod faults;
+mod flattened;
 mod meeting;
 mod piece;
 mod rims;

@@ -1,6 +1,8 @@
 //! Report of the task `check`.
 
 use serde::Serialize;
+use std::fmt::Write;
+use unripple::act::Note;
 use unripple_store::{Fault, FileFaults};
 
 /// All faults of a surface file.
@@ -15,6 +17,9 @@ pub struct Report {
     /// Number of faults beyond those listed; absent for a file without faults.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub omitted: Option<usize>,
+    /// Remarks on a file without faults, if any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<Note>,
     /// The faults together with the lines of the file that they are in, for the text report.
     #[serde(skip)]
     pub file: Option<Box<FileFaults>>,
@@ -27,7 +32,11 @@ impl crate::Report for Report {
     fn text(&self) -> String {
         match (&self.named, &self.file) {
             (Some((name, count)), _) => {
-                format!("{}: no faults (\"{name}\", {count} actuators)", self.surface)
+                let mut text = format!("{}: no faults (\"{name}\", {count} actuators)", self.surface);
+                for note in &self.notes {
+                    let _ = write!(text, "\nnote, {}: {}", note.topic, note.text);
+                }
+                text
             }
             (None, Some(faults)) => format!("{faults:#}"),
             (None, None) => String::new(),

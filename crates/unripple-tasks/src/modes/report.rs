@@ -3,6 +3,7 @@
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt::Write;
+use unripple::act::Note;
 use unripple::core::Pole;
 
 /// Modes listed for people; JSON has all.
@@ -23,10 +24,13 @@ pub struct Report {
     pub decay_times_s: Vec<Option<f64>>,
     /// Share of bending in the stiffness of each mode, 0 to 1; the rest is tension.
     pub bending_shares: Vec<f64>,
-    /// Largest relative error of the frequencies, estimated.
+    /// A bound of the relative error of the frequencies.
     pub relative_error: f64,
     /// The modes with the masses, springs, coils and electrical loads of the actuators; `None` if no actuator loads the sheet.
     pub loaded: Option<Loaded>,
+    /// Remarks on the surface, if any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<Note>,
 }
 
 /// The modes of a sheet with its actuators on it, lowest first.
@@ -75,11 +79,24 @@ impl Report {
                 self.bending_shares.get(i).map_or("-".into(), |share| format!("{:.3}", 100.0 * share));
             let _ = writeln!(text, "{:6} {with} {alone} {share:>17}", i + 1);
         }
-        text + &more(rows) + &self.rigid()
+        text + &more(rows) + &self.remarks()
     }
 }
 
 impl Report {
+    /// What follows the table: motions as a rigid body, the error of the frequencies, and notes.
+    fn remarks(&self) -> String {
+        let mut text = self.rigid();
+        let _ = match self.relative_error {
+            0.0 => writeln!(text, "  relative error of a frequency: rounding alone"),
+            error => writeln!(text, "  relative error of a frequency: at most {error:.1e}"),
+        };
+        for note in &self.notes {
+            let _ = writeln!(text, "note, {}: {}", note.topic, note.text);
+        }
+        text
+    }
+
     /// The line on motions as a rigid body among the modes, if there are any.
     fn rigid(&self) -> String {
         match self.frequencies_hz.iter().take_while(|hz| **hz == 0.0).count() {
@@ -110,6 +127,6 @@ impl crate::Report for Report {
             let share = 100.0 * bending;
             let _ = writeln!(text, "{:6} {} {share:17.3}", i + 1, columns(Some(hz), Some(decay)));
         }
-        text + &more(self.count) + &self.rigid()
+        text + &more(self.count) + &self.remarks()
     }
 }

@@ -1,6 +1,7 @@
 //! Modal analysis of a surface.
 
 use super::{Ask, Loaded, Report};
+use crate::curves::flattened;
 use crate::numbers::above_zero;
 use crate::{Progress, TaskError, go_on};
 use unripple::physics::{Modes, loaded_modes};
@@ -34,5 +35,6 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         bending_shares: modes.bending_shares().to_vec(),
         relative_error: modes.error(),
         loaded: loaded.map(|modes| Loaded::of(&modes)),
+        notes: flattened(&surface).into_iter().collect(),
     })
 }
