@@ -23,7 +23,7 @@ fn every_stage_of_a_focus_is_named_with_its_parts() {
     {
         assert!(lines.iter().any(|line| line == stage), "{stage}: {lines:#?}");
     }
-    for part in ["responses: mesh 2 of 7 at most: ", "window: mesh 1 of 7 at most: ", "evaluation: "] {
+    for part in ["responses: mesh 2 of 8 at most: ", "window: mesh 1 of 8 at most: ", "evaluation: "] {
         assert!(lines.iter().any(|line| line.starts_with(part)), "{part}: {lines:#?}");
     }
     assert!(

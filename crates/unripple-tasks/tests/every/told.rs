@@ -72,7 +72,7 @@ fn ask() -> modes::Ask {
 }
 
 fn meshes_and_shifts<'a>(parts: impl Iterator<Item = &'a String> + Clone) {
-    for part in ["mesh 1 of 7 at most: ", "mesh 2 of 7 at most: ", " unknowns: ", " modes from ", "triangles"]
+    for part in ["mesh 1 of 8 at most: ", "mesh 2 of 8 at most: ", " unknowns: ", " modes from ", "triangles"]
     {
         assert!(parts.clone().any(|told| told.contains(part)), "{part}: {:?}", parts.collect::<Vec<_>>());
     }
