@@ -1,7 +1,6 @@
 //! Triangles near the rims of glued discs: their functions with jumps, and matrices by quadrature on both sides of the rims.
 
-use super::element::{Element, Jumping};
-use super::forms::Shares;
+use super::element::{Element, Jumping, Shares};
 use super::kink::{Factors, Kink};
 use super::monomials::{Jet, QUINTIC};
 use super::overlap::{crosses, overlap, uncovered};

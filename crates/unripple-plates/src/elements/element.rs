@@ -27,6 +27,9 @@ pub(crate) struct Element {
     jumping: Vec<Jumping>,
 }
 
+/// Stiffness, bending and mass matrices of one triangle, row by row of its unknowns.
+pub(super) type Shares = [Vec<f64>; 3];
+
 /// A function N (ψq - I(ψq)) with a jump of curvature at the rim of a disc, see [`Kink`], on one triangle.
 #[derive(Clone, Debug)]
 pub(crate) struct Jumping {

@@ -1,7 +1,7 @@
 //! Assembly of the stiffness and mass matrices of a whole sheet.
 
 use super::across;
-use super::element::Element;
+use super::element::{Element, Shares};
 use super::moments::{Form, Moments};
 use super::monomials::COUNT;
 use super::overlap::overlap;
@@ -31,9 +31,6 @@ pub(crate) struct Forms {
     /// ∫ρ_s u² and the point masses' m u².
     pub(crate) mass: SparseColMat<usize, f64>,
 }
-
-/// Stiffness, bending and mass matrices of one triangle, row by row of its unknowns.
-pub(super) type Shares = [Vec<f64>; 3];
 
 impl Space {
     /// Assembles the matrices of a sheet with the given local properties; triangles are shared among threads.
