@@ -4,7 +4,7 @@ use super::element::{Element, Jumping, Shares};
 use super::kink::{Factors, Kink};
 use super::monomials::{Jet, QUINTIC};
 use super::overlap::{crosses, overlap, uncovered};
-use super::rule::Rule;
+use super::rule::{Rule, Rules};
 use super::space::{Space, middle};
 use super::topology::Topology;
 use crate::fabric::{Disc, Fabric, Local};
@@ -17,14 +17,21 @@ use unripple_linalg::{Mat, exact_symmetric};
 /// rounding. A hundred times as much, and jumps in triangles that the rim just touches are missed.
 const FAINT: f64 = 1e-13;
 
-/// Points of the rules across rims, along rays and straight borders, and along curves: exact to degree 22, that of the mass of
-/// the highest products.
-const POINTS: [usize; 2] = [12, 16];
+/// A mesh, the lengths (m) by which derivatives at its vertices are scaled, and the rule on either side of a rim.
+struct Base<'a> {
+    mesh: &'a Mesh,
+    lengths: Vec<f64>,
+    rule: Rule,
+}
 
 impl Space {
     /// The space with functions added whose curvature jumps across the rims of discs that touch no other disc.
     pub(crate) fn with_kinks(mut self, mesh: &Mesh, fabric: &Fabric) -> Self {
         let discs = fabric.discs();
+        if discs.is_empty() {
+            return self;
+        }
+        let base = Base { mesh, lengths: Topology::of(mesh).lengths, rule: Rules::new(false).across };
         let apart = |i: usize| {
             let clear = |(j, other): (usize, &Disc)| {
                 i == j || other.at.distance(discs[i].at) > other.radius + discs[i].radius
@@ -32,14 +39,14 @@ impl Space {
             discs.iter().enumerate().all(clear)
         };
         for (index, disc) in discs.iter().enumerate().filter(|(i, _)| apart(*i)) {
-            self.add_kink(mesh, index, disc, fabric.bends());
+            self.add_kink(&base, index, disc, fabric.bends());
         }
         self
     }
 
     /// Adds the functions of a disc to the triangles near its rim.
-    fn add_kink(&mut self, mesh: &Mesh, index: usize, disc: &Disc, bending: bool) {
-        let lengths = Topology::of(mesh).lengths;
+    fn add_kink(&mut self, base: &Base, index: usize, disc: &Disc, bending: bool) {
+        let Base { mesh, lengths, rule } = base;
         let around = self.near(mesh, disc);
         let Some(length) = around.keys().map(|v| lengths[*v]).reduce(f64::min) else { return };
         let kink = Kink::new(index, disc, length, bending);
@@ -47,7 +54,7 @@ impl Space {
             let vertex = mesh.vertices[*v].at;
             let jumping = |t: usize, factors: Factors| {
                 let triangle = &mesh.triangles[t];
-                let values = nodal(mesh, triangle, &lengths, |p| kink.at(vertex, &factors, p));
+                let values = nodal(mesh, triangle, lengths, |p| kink.at(vertex, &factors, p));
                 let corner = triangle.vertices.iter().position(|w| w == v).unwrap_or_default();
                 let interpolated = self.elements[t].polynomial(&values);
                 Jumping { kink, vertex, factors, column: 6 * corner, interpolated }
@@ -55,7 +62,7 @@ impl Space {
             let monomial = |i: usize| -> Factors { std::array::from_fn(|j| f64::from(u8::from(i == j))) };
             let each = |t: &usize| (*t, std::array::from_fn(|i| jumping(*t, monomial(i))));
             let all: Vec<(usize, [Jumping; 6])> = triangles.iter().map(each).collect();
-            let kept = independent(&self.elements, disc, &all);
+            let kept = independent(&self.elements, rule, disc, &all);
             let added: Vec<(usize, Vec<Jumping>)> = triangles
                 .iter()
                 .map(|t| (*t, kept.iter().map(|factors| jumping(*t, *factors)).collect()))
@@ -93,8 +100,12 @@ impl Space {
 
 /// Factors of monomials, by which functions around a vertex are orthogonal, with a mean square of 1 over its triangles; of the six
 /// combinations those that are more than rounding. The functions of the six monomials are given for each triangle.
-fn independent(elements: &[Element], disc: &Disc, all: &[(usize, [Jumping; 6])]) -> Vec<Factors> {
-    let rule = Rule::new(POINTS[0], POINTS[1]);
+fn independent(
+    elements: &[Element],
+    rule: &Rule,
+    disc: &Disc,
+    all: &[(usize, [Jumping; 6])],
+) -> Vec<Factors> {
     let (mut products, mut area) = ([[0.0; 6]; 6], 0.0);
     let mut points = Vec::new();
     for (t, functions) in all {
@@ -134,8 +145,7 @@ fn nodal(mesh: &Mesh, triangle: &Triangle, lengths: &[f64], function: impl Fn(Po
 }
 
 /// Stiffness, bending and mass matrices of a triangle with functions that jump.
-pub(super) fn shares(element: &Element, fabric: &Fabric) -> Shares {
-    let rule = Rule::new(POINTS[0], POINTS[1]);
+pub(super) fn shares(element: &Element, fabric: &Fabric, rule: &Rule) -> Shares {
     let mut sums = Sums::new(element.unknowns.len());
     let discs = fabric.discs();
     let split: Vec<usize> = element.kinks().map(|kink| kink.disc).collect();

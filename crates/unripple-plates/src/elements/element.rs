@@ -3,7 +3,7 @@
 use super::border::Border;
 use super::corner::Corner;
 use super::kink::{Factors, Kink, product};
-use super::monomials::{COUNT, Frame, Jet, Jets, QUINTIC};
+use super::monomials::{COUNT, Frame, Jet, QUINTIC};
 use super::trim::trim;
 use unripple_core::Point;
 
@@ -46,13 +46,13 @@ pub(crate) struct Jumping {
 }
 
 impl Jumping {
-    /// The function at a point, from N there and the monomials' jets; `covered` if the disc is over the point.
-    fn jet(&self, p: Point, covered: bool, of_vertex: &Jet, monomials: &Jets) -> Jet {
+    /// ψq - I(ψq) at a point, with as many derivatives as there are rows of the monomials; `covered` if the disc is over the point.
+    fn left(&self, p: Point, covered: bool, monomials: &[[f64; COUNT]]) -> Jet {
         let mut left = if covered { [0.0; 6] } else { self.kink.outside(self.vertex, &self.factors, p) };
         for (value, row) in left.iter_mut().zip(monomials) {
             *value -= self.interpolated.iter().zip(row).map(|(c, m)| c * m).sum::<f64>();
         }
-        product(of_vertex, &left)
+        left
     }
 }
 
@@ -134,10 +134,9 @@ impl Element {
 
     /// Values at a point (m) of functions with jumps that are not among its own; `covered` if the disc is over the point.
     pub(crate) fn jumps(&self, p: Point, covered: bool, functions: &[Jumping; 6]) -> [f64; 6] {
-        let monomials = self.frame.jets(p);
-        let of_vertex = |column: usize| monomials.map(|jet| self.combine(&jet)[column]);
-        let of_vertex = of_vertex(functions[0].column);
-        std::array::from_fn(|i| functions[i].jet(p, covered, &of_vertex, &monomials)[0])
+        let monomials = self.frame.values(p);
+        let of_vertex = self.combine(&monomials)[functions[0].column];
+        std::array::from_fn(|i| of_vertex * functions[i].left(p, covered, &[monomials])[0])
     }
 
     /// Weights of the unknowns, one each, for u at a point (m).
@@ -157,7 +156,7 @@ impl Element {
         for jumping in &self.jumping {
             let of_vertex: Jet = std::array::from_fn(|i| rows[i][jumping.column]);
             let covered = Some(jumping.kink.disc) == under;
-            let jet = jumping.jet(p, covered, &of_vertex, &monomials);
+            let jet = product(&of_vertex, &jumping.left(p, covered, &monomials));
             rows.iter_mut().zip(jet).for_each(|(row, value)| row.push(value));
         }
         rows

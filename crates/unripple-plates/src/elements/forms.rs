@@ -43,7 +43,7 @@ impl Space {
             let shares: Vec<Shares> = elements
                 .par_iter()
                 .map(|element| match element.kinks().next() {
-                    Some(_) => across::shares(element, fabric),
+                    Some(_) => across::shares(element, fabric, &rules.across),
                     None => shares(element, fabric, &rules),
                 })
                 .collect();

@@ -1,4 +1,4 @@
-//! The part of a triangle that lies under a disc, bounded by pieces of both rims.
+//! The parts of a triangle that lie under discs and beside them, bounded by pieces of both rims.
 
 use super::border::Border;
 use super::element::Element;
@@ -13,9 +13,7 @@ const PIECES: usize = 24;
 
 /// The pieces of borders, anticlockwise, around the part of a triangle under a disc; empty if there is none.
 pub(crate) fn overlap(element: &Element, disc: &Disc) -> Vec<Border> {
-    let [low, high] = bounds(element);
-    let nearest = Point::new(disc.at.x.clamp(low.x, high.x), disc.at.y.clamp(low.y, high.y));
-    if nearest.distance(disc.at) > disc.radius {
+    if !is_near(element, disc) {
         return Vec::new();
     }
     let mut kept = Vec::new();
@@ -45,7 +43,14 @@ pub(crate) fn uncovered(element: &Element, discs: &[&Disc]) -> Vec<Border> {
 
 /// Whether a disc's rim passes through a triangle.
 pub(crate) fn crosses(element: &Element, disc: &Disc) -> bool {
-    !arcs(element, disc).is_empty()
+    is_near(element, disc) && !arcs(element, disc).is_empty()
+}
+
+/// Whether a disc reaches the box around a triangle.
+fn is_near(element: &Element, disc: &Disc) -> bool {
+    let [low, high] = bounds(element);
+    let nearest = Point::new(disc.at.x.clamp(low.x, high.x), disc.at.y.clamp(low.y, high.y));
+    nearest.distance(disc.at) <= disc.radius
 }
 
 /// The pieces of a border between cuts at ascending parameters.

@@ -14,7 +14,13 @@ use unripple_core::Point;
 pub(crate) struct Rules {
     quintic: Rule,
     higher: Rule,
+    /// For functions with jumps, on either side of them.
+    pub(crate) across: Rule,
 }
+
+/// Points of the rules on either side of a jump, along rays and straight borders, and along curves: exact to degree 22, that of the mass
+/// of the highest products.
+const ACROSS: [usize; 2] = [12, 16];
 
 /// Gauss-Legendre rules on [0, 1]: along a cone's rays, along straight borders and along curves.
 #[derive(Clone, Debug)]
@@ -28,7 +34,11 @@ impl Rules {
     /// Rules for products of two polynomials, times coefficients that vary if `varying`.
     pub(crate) fn new(varying: bool) -> Self {
         let more = if varying { 3 } else { 0 };
-        Self { quintic: Rule::new(6 + more, 12 + more), higher: Rule::new(HIGHEST + 1 + more, 14 + more) }
+        Self {
+            quintic: Rule::new(6 + more, 12 + more),
+            higher: Rule::new(HIGHEST + 1 + more, 14 + more),
+            across: Rule::new(ACROSS[0], ACROSS[1]),
+        }
     }
 
     /// The rule for polynomials of a number of monomials.
@@ -39,7 +49,7 @@ impl Rules {
 
 impl Rule {
     /// A rule with as many points along rays and straight borders, and along curves.
-    pub(crate) fn new(plain: usize, curved: usize) -> Self {
+    fn new(plain: usize, curved: usize) -> Self {
         let rule = |count| gauss(count).into_iter().map(|(x, w)| (0.5 * (1.0 + x), 0.5 * w)).collect();
         Self { radial: rule(plain), straight: rule(plain), curved: rule(curved) }
     }
