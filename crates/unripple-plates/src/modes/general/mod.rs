@@ -3,6 +3,7 @@
 mod polygon;
 mod rates;
 mod sizing;
+mod solution;
 
 use super::bounds::Bounds;
 use super::found::Found;
@@ -12,8 +13,8 @@ use crate::elements::{MeshShapes, Space};
 use crate::fabric::Fabric;
 use crate::mesh::Mesh;
 use crate::spectrum::{self, Pairs};
-use rates::Level;
 use sizing::Plan;
+use solution::Solution;
 use unripple_core::plane::doubled;
 use unripple_core::{Observed, Surface};
 use unripple_linalg::{ColRef, Mat, sparse_times};
@@ -89,23 +90,6 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
         plan = plan.refined(error, bounds.accuracy);
     }
     Err(PhysicsError::NotConverged { max_hz: bounds.max_hz, expected: bounds.accuracy, found: best })
-}
-
-/// A solution on one mesh.
-struct Solution {
-    space: Space,
-    pairs: Pairs,
-    /// Bending's share of each mode's elastic energy.
-    bending_shares: Vec<f64>,
-    /// Mean edge length, see [`mean_edge`], in metres.
-    edge: f64,
-}
-
-impl Solution {
-    /// What later meshes are compared with.
-    fn level(&self) -> Level {
-        Level { edge: self.edge, squares: self.pairs.values.clone() }
-    }
 }
 
 /// Meshes a sheet as planned, assembles its matrices and solves for the modes below the top.

@@ -6,7 +6,7 @@
 //! curvature varies as r^(π/α - 2), and its energy as r^(2π/α - 2), which at corners just short of 180° no grading of a mesh resolves. At
 //! re-entrant corners the mode of the membrane has infinite bending energy, and the two differ (Sapondzhyan's paradox).
 
-use super::Solution;
+use super::solution::Solution;
 use crate::modes::bounds::Bounds;
 use crate::{Medium, PhysicsError};
 use std::f64::consts::PI;

@@ -73,7 +73,7 @@ fn rate(ratio: f64, [a, b]: [f64; 2]) -> f64 {
 
 /// The relative differences of two lists of frequencies, given as squares, up to the end of the shorter; `None` if the finer mesh
 /// has over a tenth and two more.
-pub(super) fn differences(coarse: &[f64], fine: &[f64]) -> Option<Vec<f64>> {
+fn differences(coarse: &[f64], fine: &[f64]) -> Option<Vec<f64>> {
     if fine.len() as f64 > 1.1 * coarse.len() as f64 + 2.0 {
         return None;
     }

@@ -1,0 +1,22 @@
+//! Modes as they are found on one mesh.
+
+use super::rates::Level;
+use crate::elements::Space;
+use crate::spectrum::Pairs;
+
+/// A solution on one mesh.
+pub(super) struct Solution {
+    pub(super) space: Space,
+    pub(super) pairs: Pairs,
+    /// Bending's share of each mode's elastic energy.
+    pub(super) bending_shares: Vec<f64>,
+    /// Mean edge length, see [`mean_edge`](super::mean_edge), in metres.
+    pub(super) edge: f64,
+}
+
+impl Solution {
+    /// What later meshes are compared with.
+    pub(super) fn level(&self) -> Level {
+        Level { edge: self.edge, squares: self.pairs.values.clone() }
+    }
+}
