@@ -53,12 +53,21 @@ fn derivatives(f: &[f64], n: usize, x: f64, sign: f64) -> [f64; 4] {
     [f0, f1, f2, f3]
 }
 
+/// Steps in which roots are looked for, far shorter than their distance.
+const STEPS: usize = 3000;
+
 /// All frequencies of a round sheet of some radius below `max_hz`, in Hz, ascending; each with n > 0 nodal diameters
 /// twice. Rigid modes are left out.
 pub fn frequencies(sheet: &Sheet, radius: f64, edge: Edge, max_hz: f64) -> Vec<f64> {
     let mut all = Vec::new();
     for n in 0.. {
-        let found = roots(|omega| determinant(sheet, radius, edge, n, omega), TAU * max_hz);
+        let top = TAU * max_hz;
+        // Not from 0, where the determinant is that of a rigid motion.
+        let found = roots(
+            |omega| determinant(sheet, radius, edge, n, omega),
+            [1e-3 * top / STEPS as f64, top],
+            STEPS,
+        );
         if found.is_empty() && n > 2 {
             break;
         }
@@ -95,16 +104,15 @@ fn determinant(sheet: &Sheet, a: f64, edge: Edge, n: usize, omega: f64) -> f64 {
     (p * s - q * r) / size
 }
 
-/// Roots up to `top` of a function that changes sign at each, by bisection between the steps of a fine lattice.
-fn roots(f: impl Fn(f64) -> f64, top: f64) -> Vec<f64> {
-    const STEPS: usize = 3000;
-    let place = |i: usize| top * (i as f64 + 1e-3) / STEPS as f64;
+/// Roots between two places of a function that changes sign at each, by bisection between as many steps as are given.
+pub fn roots(f: impl Fn(f64) -> f64, [from, to]: [f64; 2], steps: usize) -> Vec<f64> {
+    let place = |i: usize| from + (to - from) * i as f64 / steps as f64;
     let mut found = Vec::new();
-    let mut before = f(place(0));
-    for i in 1..=STEPS {
-        let after = f(place(i).min(top));
+    let mut before = f(from);
+    for i in 1..=steps {
+        let after = f(place(i));
         if before * after < 0.0 {
-            let (mut low, mut high) = (place(i - 1), place(i).min(top));
+            let (mut low, mut high) = (place(i - 1), place(i));
             for _ in 0..60 {
                 let middle = 0.5 * (low + high);
                 if f(middle) * before < 0.0 { high = middle } else { low = middle }

@@ -25,23 +25,3 @@ pub fn pencil(stiffness: &Mat<f64>, mass: &Mat<f64>, shift: f64) -> Vec<f64> {
     let (values, _) = exact_symmetric(both.as_ref()).unwrap();
     values.iter().rev().map(|v| 1.0 / v - shift).collect()
 }
-
-/// Zeros of a function between two places, by bisection where it changes its sign from one of `steps` places to the next.
-pub fn zeros(f: impl Fn(f64) -> f64, [from, to]: [f64; 2], steps: usize) -> Vec<f64> {
-    let place = |i: usize| from + (to - from) * i as f64 / steps as f64;
-    let mut found = Vec::new();
-    let mut before = f(from);
-    for i in 1..=steps {
-        let after = f(place(i));
-        if before * after < 0.0 {
-            let (mut low, mut high) = (place(i - 1), place(i));
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if f(middle) * before < 0.0 { high = middle } else { low = middle }
-            }
-            found.push(0.5 * (low + high));
-        }
-        before = after;
-    }
-    found
-}

@@ -1,7 +1,7 @@
 //! Sectors of a circle with supported straight edges: products of Bessel functions of fractional order and sines of the angle.
 
 use super::bessel::{Jet, series};
-use super::zeros;
+use crate::round_common::roots;
 use std::f64::consts::PI;
 
 /// Number of places at which a determinant is looked at for each unit of the largest wavenumber times the radius: zeros lie about π
@@ -40,7 +40,7 @@ fn all(angle: f64, k_top: f64, f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     let mut found = Vec::new();
     for n in 1.. {
         let order = f64::from(n) * PI / angle;
-        let of_order = zeros(|k| f(order, k), [0.5, k_top], (PLACES * k_top) as usize);
+        let of_order = roots(|k| f(order, k), [0.5, k_top], (PLACES * k_top) as usize);
         // No wavenumber lies below its order.
         if of_order.is_empty() && order > k_top {
             break;
