@@ -358,11 +358,12 @@ proptest! {
         let (one, other) = (noise(u64::from(seed), count), noise(u64::from(seed) + 1, count));
         let both: Vec<f64> = one.iter().zip(&other).map(|(a, b)| 2.0 * a - b).collect();
         let [one, other, both] = [one, other, both].map(|drive| run(&mut surface.clone(), &drive).0);
-        // As above, masses may leave little of an impulse, which is known to as many digits fewer.
+        let scale = 2.0 * peak(&one) + peak(&other);
+        // As above, masses may leave little of an impulse: of what it gives the bare sheet, rounding in fifty samples is left.
         let bare = channels.iter().map(|channel| struck(&plant, channel, rate)).fold(0.0, f64::max);
-        let scale = (2.0 * peak(&one) + peak(&other)).max(bare);
         for ((one, other), both) in one.iter().zip(&other).zip(&both) {
-            prop_assert!((2.0 * one - other - both).abs() <= 1e-7 * scale);
+            let off = (2.0 * one - other - both).abs();
+            prop_assert!(off <= 1e-7 * scale + 1e-10 * bare, "{off:e} of {scale:e}, {bare:e} on the bare sheet");
         }
     }
 }
