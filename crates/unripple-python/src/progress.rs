@@ -16,6 +16,11 @@ const LOOK: Duration = Duration::from_millis(50);
 /// is over.
 static WORK: LazyLock<Lane> = LazyLock::new(|| Lane::new(0));
 
+/// Waits, `at_most` so long, until no work that was given up still runs.
+pub(crate) fn settled(at_most: Duration) {
+    WORK.quiet(at_most);
+}
+
 /// Does long work on a thread of its own, with the GIL released, on so many threads of rayon (`None`: one for each core, shared by all
 /// calls). What it tells is passed to `progress`, which has the methods `stage(what)`, `done(share)` and `tell(line)`. A signal whose handler
 /// raises, and an exception of these methods, end the call within 0.2 s: the work is given up, and the exception is raised.

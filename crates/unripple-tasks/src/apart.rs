@@ -157,6 +157,21 @@ impl Lane {
         }
     }
 
+    /// Waits, `at_most` so long, until no task that was given up still runs, and says whether none does: before a process ends, so that
+    /// none is cut off while it makes a file or removes what it made.
+    ///
+    /// ```
+    /// use std::time::Duration;
+    /// use unripple_tasks::Lane;
+    ///
+    /// assert!(Lane::new(0).quiet(Duration::ZERO));
+    /// ```
+    pub fn quiet(&self, at_most: Duration) -> bool {
+        let running = self.given_up.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let waited = self.given_up.1.wait_timeout_while(running, at_most, |running| *running > 0);
+        *waited.unwrap_or_else(PoisonError::into_inner).0 == 0
+    }
+
     fn count(&self, change: impl Fn(usize) -> usize) {
         let mut running = self.given_up.0.lock().unwrap_or_else(PoisonError::into_inner);
         *running = change(*running);

@@ -108,6 +108,21 @@ fn a_lane_goes_on_beside_as_many_as_it_is_told() {
 }
 
 #[test]
+fn a_lane_is_quiet_when_what_was_given_up_is_over() {
+    let (lane, ask) = (Lane::new(1), Ask::default());
+    let moment = Duration::from_millis(20);
+    assert!(lane.quiet(Duration::ZERO));
+    let given_up = ask.clone();
+    let cancelled = lane.run(move |progress| stubborn(&given_up, progress), &mut Until::soon());
+    assert!(matches!(cancelled, Err(TaskError::Cancelled)));
+    assert!(!lane.quiet(moment), "it is still at work");
+    ask.released.store(true, Ordering::SeqCst);
+    // No clock is asked: an hour is never waited for.
+    assert!(lane.quiet(Duration::from_secs(3600)));
+    assert_eq!(ask.living.load(Ordering::SeqCst), 0);
+}
+
+#[test]
 fn a_panic_is_an_error() {
     fn falls(_: &(), _: &mut dyn Progress) -> Result<(), TaskError> {
         panic!("on purpose")
