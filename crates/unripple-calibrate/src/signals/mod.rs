@@ -30,7 +30,7 @@ pub use harmonics::{Harmonic, Harmonics, Split};
 pub use powers::band_powers;
 pub use quality::{Quality, clipped, snr_db};
 pub use reciprocity::{Pair, Reciprocity};
-pub use remap::Remap;
+pub use remap::{Moves, Remap};
 pub use schedule::Schedule;
 pub use stimulus::Stimulus;
 pub use sweep::Sweep;

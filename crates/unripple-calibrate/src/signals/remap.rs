@@ -17,14 +17,35 @@ const BETA: f64 = 12.0;
 /// Steps of the tabulated kernel between two lines: interpolated linearly, it is accurate to 1e-7.
 const FINE: usize = 1024;
 
-/// The kernel at `i / FINE` lines from its middle.
-static KERNEL: LazyLock<Vec<f64>> = LazyLock::new(|| {
-    let value = |i: usize| {
-        let away = i as f64 / FINE as f64;
-        sinc(away) * kaiser(away / HALF as f64, BETA)
-    };
-    (0..=HALF * FINE + 1).map(value).collect()
+/// Weights of the kernel's lines: the same line at all of its places is side by side.
+type Weights = [f64; 2 * HALF];
+
+/// The weights of the lines around a place `i / FINE` of the way from one line to the next, of which the former is number `HALF - 1`.
+static KERNEL: LazyLock<Vec<Weights>> = LazyLock::new(|| {
+    let value = |away: f64| sinc(away) * kaiser(away / HALF as f64, BETA);
+    let place = |i: usize| i as f64 / FINE as f64 + (HALF - 1) as f64;
+    (0..=FINE).map(|i| std::array::from_fn(|k| value((place(i) - k as f64).abs()))).collect()
 });
+
+/// The weights of the lines around a place, `part` of the way from one line to the next.
+fn weights(part: f64) -> Weights {
+    let place = part * FINE as f64;
+    let left = (place as usize).min(FINE - 1);
+    let (part, kernel) = (place - left as f64, &KERNEL[left..left + 2]);
+    std::array::from_fn(|k| kernel[0][k] * (1.0 - part) + kernel[1][k] * part)
+}
+
+/// Where the lines of a moved signal come from.
+#[derive(Clone, Debug)]
+pub struct Moves(Vec<Move>);
+
+/// Where one line comes from: lines of the signal from the `first` on, with the weights of the kernel, turned.
+#[derive(Clone, Copy, Debug)]
+struct Move {
+    first: i64,
+    weights: Weights,
+    turn: Complex<f64>,
+}
 
 /// A signal prepared for moving its frequencies: `h'(t) = 1/π Re ∫ H(ω) e^{jω't} dω`, for any rising ω'(ω).
 ///
@@ -80,49 +101,47 @@ impl Remap {
     /// Spectrum of the moved signal at the lines of a band (Hz). `from` returns, for a frequency (Hz) after moving, the
     /// frequency before (Hz), and the derivative of the latter by the former.
     pub fn lines(&self, band: [f64; 2], from: impl Fn(f64) -> [f64; 2]) -> Vec<Complex<f64>> {
-        let [first, end] = self.within(band);
-        self.lines_from(first, (first..end).map(|line| from(self.hz(line))))
+        self.lines_by(&self.moves(band, from))
     }
 
-    /// Spectrum of the moved signal at the lines from the `first` on, given for each the frequency before moving (Hz) and its derivative by
-    /// that after moving: for several signals of one length that move alike.
-    pub fn lines_from(&self, first: usize, moves: impl IntoIterator<Item = [f64; 2]>) -> Vec<Complex<f64>> {
+    /// How the lines of a band (Hz) come from those of the signal, which all signals of the same length and origin share; `from` as in
+    /// [`Remap::lines`].
+    pub fn moves(&self, band: [f64; 2], from: impl Fn(f64) -> [f64; 2]) -> Moves {
+        let [first, end] = self.within(band);
         let step = self.rate / self.plan.size() as f64;
-        let value = |(line, [hz, slope]): (usize, [f64; 2])| {
+        let move_of = |line: usize| {
+            let [hz, slope] = from(self.hz(line));
             let at = hz / step;
+            // A frequency outside the spectrum, or none.
             if !(at >= 0.0 && at <= (self.lines.len() - 1) as f64) {
-                return Complex::default();
+                return Move { first: 0, weights: [0.0; 2 * HALF], turn: Complex::default() };
             }
             // Back from the middle of the signal, and moved about its time 0.
             let back = (self.centre - self.origin) * at + self.origin * line as f64;
-            self.between(at) * Complex::from_polar(slope, -TAU * back / self.plan.size() as f64)
+            let turn = Complex::from_polar(slope, -TAU * back / self.plan.size() as f64);
+            let whole = at.floor();
+            Move { first: whole as i64 + 1 - HALF as i64, weights: weights(at - whole), turn }
         };
-        (first..).zip(moves).map(value).collect()
+        Moves((first..end).map(move_of).collect())
+    }
+
+    /// Spectrum of the moved signal at the lines of the moves, which were made for a signal of the same length and origin.
+    pub fn lines_by(&self, moves: &Moves) -> Vec<Complex<f64>> {
+        moves.0.iter().map(|of| self.between(of) * of.turn).collect()
     }
 
     /// The spectrum of the centred signal between its lines.
-    fn between(&self, at: f64) -> Complex<f64> {
-        let (whole, last) = (at.floor() as i64, self.lines.len() as i64 - 1);
-        let first = whole + 1 - HALF as i64;
-        let kernel: &[f64] = &KERNEL;
-        let weight = |k: i64| {
-            let place = (at - k as f64).abs() * FINE as f64;
-            let left = place as usize;
-            let part = place - left as f64;
-            let read = |i: usize| kernel.get(i).copied().unwrap_or(0.0);
-            read(left) * (1.0 - part) + read(left + 1) * part
-        };
-        let lines = (first..).take(2 * HALF);
+    fn between(&self, of: &Move) -> Complex<f64> {
         // Nearly everywhere all lines of the kernel are there, side by side: this is the innermost loop of every comparison of takes.
-        let inside = usize::try_from(first).ok().and_then(|first| self.lines.get(first..first + 2 * HALF));
+        let inside = usize::try_from(of.first).ok().and_then(|first| self.lines.get(first..first + 2 * HALF));
         let mut sum = Complex::default();
         match inside {
-            Some(inside) => {
-                for (k, line) in lines.zip(inside) {
-                    sum += line * weight(k);
-                }
+            Some(inside) => inside.iter().zip(&of.weights).for_each(|(line, weight)| sum += line * weight),
+            None => {
+                let last = self.lines.len() as i64 - 1;
+                let lines = (of.first..).map(|k| self.line(k, last));
+                lines.zip(&of.weights).for_each(|(line, weight)| sum += line * weight);
             }
-            None => lines.for_each(|k| sum += self.line(k, last) * weight(k)),
         }
         sum
     }
