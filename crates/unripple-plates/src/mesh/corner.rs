@@ -10,6 +10,10 @@ use unripple_core::{Edge, Outline};
 /// Shortest edge at a corner, as a share of the local size: there coordinates have about seven digits
 /// left. Halved, the strongest singularities get one or two more rings of triangles.
 const FLOOR: f64 = 1e-9;
+/// Relative error of the lowest eigenvalues by rounding where a bent sheet moves at a corner, for edges there as long as the sheet is
+/// wide: it rises as the inverse square of the edge length, since the stiffness of an element does, measured (edges of 2e-7 widths leave
+/// 2e-5 for each such corner). A tenth of it, and edges would be chosen for which rounding is all of the error.
+const ROUNDED: f64 = 1e-18;
 /// Power up to which an element at a corner misses the share [`LOOSE`] of the singular energy it holds. See
 /// [`missed`].
 const ROUGH: f64 = 0.6;
@@ -43,6 +47,18 @@ pub(crate) struct Corner {
     pub(crate) edges: [Edge; 2],
     /// How much the curvature of the rim jumps there if the sides continue each other, in 1/m; else 0.
     pub(crate) jump: f64,
+    /// Width of the sheet, in metres.
+    pub(crate) width: f64,
+}
+
+impl Corner {
+    /// The smallest edge there for which rounding changes no eigenvalue by more than the relative `accuracy`, as a share of the edge
+    /// length elsewhere (`size`, in metres), from 1e-9 to 1.
+    fn floor(&self, size: f64, bending: bool, accuracy: f64) -> f64 {
+        let rounds = bending && self.edges.iter().all(|edge| edge.moves());
+        let edge = if rounds { self.width * (ROUNDED / accuracy).sqrt() } else { 0.0 };
+        (edge / size).clamp(FLOOR, 1.0)
+    }
 }
 
 /// The corners of an outline, at the start of each side, in the order of [`Mesh::sides`](super::Mesh::sides).
@@ -51,24 +67,26 @@ pub(crate) struct Corner {
 /// [`PhysicsError::Outline`] for an invalid outline.
 pub(crate) fn corners(outline: &Outline) -> Result<Vec<Corner>, PhysicsError> {
     let rims = Rims::new(outline)?;
+    let (width, height) = outline.extent();
     let corner = |i: usize| {
         let ((before, first), (after, second)) = (rims.sides[rims.previous(i)], rims.sides[i]);
         let continued = (rims.angles[i] - PI).abs() < SMOOTH;
         let jump = if continued { (after.curvature(0.0) - before.curvature(1.0)).abs() } else { 0.0 };
         let jump = if jump.is_finite() { jump } else { 0.0 };
-        Corner { angle: rims.angles[i], edges: [first, second], jump }
+        Corner { angle: rims.angles[i], edges: [first, second], jump, width: width.max(height) }
     };
     Ok((0..rims.sides.len()).map(corner).collect())
 }
 
 /// The smallest edge at a corner, as a share of the edge length elsewhere (`size`, in metres), for which the error of the elements in
-/// the singular part of the solution changes no eigenvalue by more than the relative `accuracy`; 1 if no smaller edge is needed, at
-/// least 1e-9.
+/// the singular part of the solution changes no eigenvalue by more than the relative `accuracy`, or for which rounding does not; 1 if no
+/// smaller edge is needed, at least 1e-9.
 ///
 /// If the solution is singular as r^ν, the energy that elements of size r miss is as (r/size)^(2p), p = ν - 1 with bending and ν
 /// without.
 pub(crate) fn smallest_edge(corner: &Corner, size: f64, bending: bool, accuracy: f64) -> f64 {
-    Singularity::of(corner, size, bending, accuracy).map_or(1.0, |s| s.smallest_edge(accuracy))
+    let floor = corner.floor(size, bending, accuracy);
+    Singularity::of(corner, size, bending, accuracy).map_or(1.0, |s| s.smallest_edge(accuracy).max(floor))
 }
 
 /// The number of corners where the singular part would change eigenvalues by more than the relative `accuracy` with edges of one
@@ -86,8 +104,9 @@ pub(crate) fn unresolved(corners: &[Corner], size: f64, bending: bool, accuracy:
         // A singular part that needs no smaller edge may still be one of many.
         let all = accuracy.min(FAINT);
         let Some(s) = Singularity::of(corner, size, bending, all) else { return 0.0 };
-        let share = s.smallest_edge(accuracy);
-        let hidden = share <= FLOOR || (share >= 1.0 && s.power < SLOW);
+        let floor = corner.floor(size, bending, accuracy);
+        let share = s.smallest_edge(accuracy).max(floor);
+        let hidden = share <= floor || (share >= 1.0 && s.power < SLOW);
         let missed = s.strength * missed(s.power);
         let rings = if share < 1.0 { GRADED * (growth / GROWTH).powi(8) } else { 0.0 };
         let core = share.powf(2.0 * s.power);
@@ -185,7 +204,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, TAU};
 
     fn smallest_edge(angle: f64, edges: [Edge; 2], bending: bool, accuracy: f64) -> f64 {
-        super::smallest_edge(&Corner { angle, edges, jump: 0.0 }, 1.0, bending, accuracy)
+        super::smallest_edge(&Corner { angle, edges, jump: 0.0, width: 1.0 }, 1.0, bending, accuracy)
     }
 
     #[test]
@@ -219,7 +238,7 @@ mod tests {
     #[test]
     fn jumps_of_curvature_are_corners_too() {
         let at = |edge, jump| {
-            super::smallest_edge(&Corner { angle: PI, edges: [edge; 2], jump }, 0.01, true, 1e-6)
+            super::smallest_edge(&Corner { angle: PI, edges: [edge; 2], jump, width: 1.0 }, 0.01, true, 1e-6)
         };
         assert_eq!(at(Supported, 0.0), 1.0);
         assert!(at(Supported, 20.0) < 0.1 && at(Free, 20.0) < 0.1);
@@ -229,13 +248,14 @@ mod tests {
     #[test]
     fn what_no_mesh_resolves_is_told() {
         let of = |count: u32, accuracy: f64| {
-            let corner = Corner { angle: PI - TAU / f64::from(count), edges: [Supported; 2], jump: 0.0 };
+            let corner =
+                Corner { angle: PI - TAU / f64::from(count), edges: [Supported; 2], jump: 0.0, width: 1.0 };
             unresolved(&vec![corner; count as usize], 0.01, true, accuracy, GROWTH)
         };
         // A supported circle's first frequency is a sixth below that of the polygons that approach it.
         assert!(of(48, 1e-3) > 0.1 && of(1000, 1e-3) > 0.1 && of(24, 1e-3) > 1e-2);
         assert!(of(6, 1e-4) < 4e-4 && of(4, 1e-3) == 0.0);
-        let ell = [Corner { angle: 1.5 * PI, edges: [Supported; 2], jump: 0.0 }];
+        let ell = [Corner { angle: 1.5 * PI, edges: [Supported; 2], jump: 0.0, width: 1.0 }];
         let [coarse, fine] = [GROWTH, 0.5 * GROWTH].map(|growth| unresolved(&ell, 0.01, true, 1e-6, growth));
         assert!(coarse > 1e-5 && fine < 5e-7, "{coarse:e} {fine:e}");
     }
