@@ -23,9 +23,10 @@ use unripple_linalg::{ColRef, Mat, sparse_times};
 /// if the accuracy is out of reach.
 const ROUNDS: usize = 6;
 
-/// Ratio of edge lengths of the first three meshes: the coarser ones cost about a half and a quarter of the third. Nearer to 1, their
-/// differences, from which the error is estimated, are lost in rounding.
-const COARSER: f64 = 1.3;
+/// Ratio of edge lengths of the first three meshes as they are planned: the coarser ones cost about a half and a third of the third.
+/// Nearer to 1, their differences, from which the error is estimated, are lost in chance ones of unlike meshes; with 1.3, the coarsest has
+/// two edges in a wavelength, and too large differences.
+const COARSER: f64 = 1.2;
 
 /// The share of the least error so far that a refinement must fall below to count as progress: with edges 1.25 times
 /// shorter, sixth order leaves 0.26. At 1, refinement goes on when only rounding errors are left.
@@ -60,15 +61,17 @@ pub(super) fn solve(surface: &Surface, bounds: &Bounds) -> Result<Found, Physics
 fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), PhysicsError> {
     let fabric = Fabric::of(surface)?;
     let order = ORDERS[usize::from(fabric.bends())];
-    let mut plan = Plan::new(surface, &fabric, bounds)?;
+    let plan = Plan::new(surface, &fabric, bounds)?;
     let coarse = plan.coarser(COARSER);
     // The finest first: what memory does not hold is refused before anything is solved.
     guard(surface, bounds, &plan)?;
     let mesh = |number: usize| Observed::here().within(format!("mesh {number} of {} at most", 2 + ROUNDS));
     let mut levels = Vec::new();
-    for plan in [coarse.coarser(COARSER), coarse] {
-        levels.push(modes(surface, &fabric, bounds, &plan, &mesh(1 + levels.len()))?.level());
+    for plan in [&coarse.coarser(COARSER), &coarse] {
+        levels.push(modes(surface, &fabric, bounds, plan, &mesh(1 + levels.len()))?.level());
     }
+    let third = coarse.coarser(1.0 / rates::finer(&levels, bounds.accuracy));
+    let mut plan = if guard(surface, bounds, &third).is_ok() { third } else { plan };
     let (mut best, mut stalled) = (f64::INFINITY, 0);
     for _ in 0..ROUNDS {
         let fine = match modes(surface, &fabric, bounds, &plan, &mesh(1 + levels.len())) {

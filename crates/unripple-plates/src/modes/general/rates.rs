@@ -11,9 +11,9 @@ pub(super) struct Level {
     pub(super) squares: Vec<f64>,
 }
 
-/// Factor on the estimated error: differences of two unstructured meshes vary by about 2 from one pair of meshes to another. At 2, one
-/// statement in thirty would be below the true error.
-const SAFETY: f64 = 3.0;
+/// Factor on the estimated error: differences of two unstructured meshes vary by about 2 from one pair of meshes to another. At 3, one
+/// statement in a hundred would be below the true error.
+const SAFETY: f64 = 4.0;
 /// Modes on each side of one whose differences are taken together with its own: one difference alone may be small by chance.
 /// Doubled, few modes at the top would hide the rate of more below them.
 const REACH: usize = 2;
@@ -54,6 +54,24 @@ pub(super) fn error(levels: &[Level], order: f64) -> f64 {
         measured.max(c / ((a.powf(order) - 1.0) * b.powf(order)))
     };
     SAFETY * (0..last.len()).map(of).fold(0.0, f64::max) + ROUNDING
+}
+
+/// The share of the accuracy that the error on the third mesh is planned to have, taken to fall at [`PACE`]: it falls faster on most
+/// sheets, and not at all on those whose coarser meshes say little yet.
+const PLANNED: f64 = 0.6;
+/// Least and greatest factor by which edges of the third mesh are shorter than those of the second. Less, and their difference says
+/// nothing of either; more, and the third costs more than another one would.
+const THIRD: [f64; 2] = [1.25, 1.6];
+
+/// The factor by which edges of a third mesh are to be shorter than those of the second of two levels, so that the bound of its error is
+/// `accuracy`.
+pub(super) fn finer(levels: &[Level], accuracy: f64) -> f64 {
+    let [least, most] = THIRD;
+    let [coarse, fine] = levels else { return least };
+    let Some(differences) = differences(&coarse.squares, &fine.squares) else { return most };
+    let worst = differences.into_iter().fold(0.0, f64::max);
+    let left = SAFETY * worst / ((coarse.edge / fine.edge).powf(PACE) - 1.0);
+    (left / (PLANNED * accuracy)).powf(1.0 / PACE).clamp(least, most)
 }
 
 /// The order q for which two successive differences have a ratio, within [`ORDERS`]; a and b are the factors by which edges got shorter.
