@@ -94,6 +94,14 @@ impl Fabric {
             masses: Vec::new(),
         };
         uneven.scatterers.iter().try_for_each(|scatterer| fabric.fix(scatterer))?;
+        if !fabric.bends() && fabric.masses.iter().any(|(_, mass)| *mass > 0.0) {
+            // The compliance of a membrane at a point is infinite.
+            return Err(PhysicsError::Unsupported {
+                what: "a point mass on a sheet without bending stiffness",
+                expected: "a disc, or a sheet that resists bending",
+                found: "a mass at a point, where such a sheet gives way".into(),
+            });
+        }
         Ok(fabric)
     }
 

@@ -109,7 +109,8 @@ fn read(root: &Section, name: Option<String>, fetch: &Fetch, faults: &mut Faults
     let (holes, sound) = holes(root, &rim, fetch, faults);
     let ground = rim.outline(&holes).map(Ground::new);
     held(&rim, &holes, sheet.as_ref(), faults);
-    let scatterers = scatterer::read(root, ground.as_ref(), faults);
+    let bends = sheet.as_ref().is_none_or(|sheet| sheet.young > 0.0);
+    let scatterers = scatterer::read(root, ground.as_ref(), bends, faults);
     let thickness = |at: Point| Some(thickness_at(sheet.as_ref()?, ground.as_ref()?, at));
     let actuators = actuator::read(root, &Base { ground: ground.as_ref(), thickness: &thickness }, faults);
     if let (Some(emission), Some(actuators)) = (&emission, &actuators) {

@@ -24,8 +24,17 @@ enum Kind {
 /// The kinds of scatterers, by their names in files.
 const KINDS: [(&str, Kind); 2] = [("mass", Kind::Mass), ("disc", Kind::Disc)];
 
-/// All tables `[[scatterer]]`, in the file's order.
-pub(super) fn read(root: &Section, ground: Option<&Ground>, faults: &mut Faults) -> Option<Vec<Scatterer>> {
+/// What a point mass needs.
+const STIFF: &str = "\"disc\" where young_gpa is 0: without stiffness against bending a sheet gives way at a point, and does not move with \
+                     a mass there";
+
+/// All tables `[[scatterer]]`, in the file's order; `bends` says whether the sheet resists bending.
+pub(super) fn read(
+    root: &Section,
+    ground: Option<&Ground>,
+    bends: bool,
+    faults: &mut Faults,
+) -> Option<Vec<Scatterer>> {
     let Some(entry) = root.get("scatterer") else { return Some(Vec::new()) };
     let Some(items) = entry.items() else {
         entry.refuse("a list of tables, each headed [[scatterer]]", None, faults);
@@ -38,14 +47,19 @@ pub(super) fn read(root: &Section, ground: Option<&Ground>, faults: &mut Faults)
         return None;
     }
     let read: Vec<Option<Scatterer>> =
-        items.iter().map(|item| one(&item.section(faults)?, ground, faults)).collect();
+        items.iter().map(|item| one(&item.section(faults)?, ground, bends, faults)).collect();
     read.into_iter().collect()
 }
 
-fn one(section: &Section, ground: Option<&Ground>, faults: &mut Faults) -> Option<Scatterer> {
-    let kind = section
-        .require("kind", "\"mass\" or \"disc\"", faults)
-        .and_then(|entry| entry.choice(&KINDS, faults));
+fn one(section: &Section, ground: Option<&Ground>, bends: bool, faults: &mut Faults) -> Option<Scatterer> {
+    let kind = section.require("kind", "\"mass\" or \"disc\"", faults).and_then(|entry| {
+        let kind = entry.choice(&KINDS, faults)?;
+        if kind == Kind::Mass && !bends {
+            entry.refuse(STIFF, None, faults);
+            return None;
+        }
+        Some(kind)
+    });
     let keys: Vec<&str> = match kind {
         Some(Kind::Mass) => MASS_KEYS.to_vec(),
         Some(Kind::Disc) => DISC_KEYS.to_vec(),

@@ -74,6 +74,19 @@ fn scatterers() {
 }
 
 #[test]
+fn a_point_mass_needs_a_sheet_that_resists_bending() {
+    let mass = "[[scatterer]]\nat_mm = [50, 40]\nkind = \"mass\"\nmass_mg = 12.5\n";
+    let stuff = "young_gpa = 0\ndensity_kg_m3 = 1400\npoisson_ratio = 0.3";
+    let film = format!("{}{mass}", GOOD.replace("material = \"BoPET\"", stuff));
+    let faults = parse_surface(&film, "film.toml").unwrap_err();
+    assert_eq!(faults.faults().len(), 1, "{faults:#}");
+    let fault = &faults.faults()[0];
+    assert!(fault.key.ends_with(".kind") && fault.expected.contains("gives way at a point"), "{faults:#}");
+    let stiff = film.replace("young_gpa = 0\n", "young_gpa = 4\n");
+    parse_surface(&stiff, "film.toml").unwrap_or_else(|faults| panic!("{faults:#}"));
+}
+
+#[test]
 fn patches_and_discs() {
     let force = surface("kind = \"force\"", "contact_radius_mm = 2.5", "");
     assert_eq!((force.actuators[0].kind, force.actuators[0].contact_radius), (ActuatorKind::Force, 0.0025));
