@@ -49,13 +49,16 @@ pub fn models(
     Ok(found?)
 }
 
-/// Refuses a highest frequency (Hz) of the modes to evaluate a drive on that is below the band of a surface, before there are modes.
+/// Refuses a highest frequency (Hz) of the modes to evaluate a drive on that is below the band of a surface, or above what its sample rate
+/// carries, before there are modes.
 pub(crate) fn reaches(surface: &Surface, judge_hz: Option<f64>) -> Result<(), TaskError> {
-    let top = surface.emission.band[1];
-    match judge_hz.filter(|hz| hz.is_nan() || *hz < top) {
+    let (top, carried) = (surface.emission.band[1], 0.5 * surface.emission.rate);
+    match judge_hz.filter(|hz| !(top..carried).contains(hz)) {
         Some(hz) => Err(TaskError::ask(
             "judge_hz",
-            format!("at least {top} Hz, the top of the band"),
+            format!(
+                "at least {top} Hz, the top of the band, and less than {carried} Hz, half the sample rate"
+            ),
             format!("{hz} Hz"),
         )),
         None => Ok(()),

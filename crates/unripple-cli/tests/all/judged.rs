@@ -2,7 +2,7 @@
 
 use crate::common;
 
-use common::{Scratch, json, number, run};
+use common::{Scratch, json, number, refused, run};
 use serde_json::Value;
 use unripple::core::{Point, Responses};
 use unripple::physics::{ResponseOptions, responses};
@@ -133,6 +133,22 @@ fn summed(channels: &[Vec<f64>], top: f64, at: Point, wavelength: f64) -> (f64, 
     let squares: f64 = (1..places.len()).map(|place| velocity(place).powi(2)).sum();
     let (peak, count) = (velocity(0), places.len() - 1);
     (peak, peak.abs() / (squares / count as f64).sqrt(), count)
+}
+
+#[test]
+fn a_frequency_that_samples_do_not_carry_is_refused() {
+    let scratch = Scratch::new("judged-carried");
+    let out = scratch.join("out");
+    for command in [
+        vec!["focus", "hudin-2012", "--at", "62,90", "-o", &out],
+        vec!["compare", "hudin-2012", "--at", "62,90", "-o", &out],
+        vec!["stroke", "hudin-2012", "--from", "40,40", "--to", "60,60", "-o", &out],
+    ] {
+        for hz in ["24000", "1e5", "NaN"] {
+            let told = refused(&[&command[..], &["--judge-hz", hz]].concat(), 2);
+            assert!(told.contains("24000 Hz, half the sample rate") || hz == "NaN", "{told}");
+        }
+    }
 }
 
 #[test]
