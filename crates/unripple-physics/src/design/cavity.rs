@@ -84,8 +84,12 @@ impl Cavity {
     /// The statistics of a surface in a band that ends at `top_hz` (Hz), from Weyl's law, without its term of the rim where that leaves no
     /// mode.
     pub fn of(surface: &Surface, top_hz: f64) -> Self {
+        Self::within(surface, [surface.emission.band[0], top_hz])
+    }
+
+    /// The statistics of a surface between two frequencies (Hz), as [`Cavity::of`].
+    pub(super) fn within(surface: &Surface, [low_hz, top_hz]: [f64; 2]) -> Self {
         let medium = Medium::of(&surface.sheet);
-        let [low_hz, _] = surface.emission.band;
         let first = medium.wavenumber(TAU * low_hz.max(0.0));
         let last = medium.wavenumber(TAU * top_hz);
         let width = (last - first) / BINS as f64;

@@ -19,6 +19,8 @@ pub(super) struct Ground<'a> {
     pub medium: Medium,
     /// Statistics of the band, its modes scaled to the exact count where there is one.
     pub cavity: Cavity,
+    /// Where the statistics begin: the bottom of the band or the first mode, in Hz.
+    pub bottom_hz: f64,
     /// Exact mode count over that of Weyl's law.
     pub scale: f64,
     /// Number of modes in the band, counted, or why they are not.
@@ -67,7 +69,12 @@ impl<'a> Ground<'a> {
         }
         let scale = counted.as_ref().map_or(1.0, |(count, _)| *count as f64 / by_law.modes());
         let modes = scale * by_law.modes();
-        let cavity = by_law.counted(modes);
+        // Nothing rings below the first mode, where losses that fall with frequency would make statistics ring for ever.
+        let bottom_hz = surface.emission.band[0].max(first_mode_hz).min(top);
+        let cavity = match bottom_hz < top {
+            true => Cavity::within(surface, [bottom_hz, top]).counted(modes),
+            false => by_law.counted(modes),
+        };
         let actuators = surface.actuators.len() as f64;
         let windows = windows();
         let window = windows.recommended();
@@ -83,6 +90,7 @@ impl<'a> Ground<'a> {
             window,
             windows,
             statistics_scale: 1.0,
+            bottom_hz,
             cavity,
         };
         let own = ground.by_statistics(&[actuators], ground.window.seconds)[0];

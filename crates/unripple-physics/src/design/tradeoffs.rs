@@ -91,10 +91,11 @@ pub(super) fn by_window(
     (-STEPS..=STEPS).map(window).map(row).collect()
 }
 
-/// Contrast for bands of other widths, below half the sample rate, with a window in s; `scale` is the exact
-/// mode count over Weyl's, `correction` the contrast in the surface's own band over that of the law.
+/// Contrast for bands of other widths, below half the sample rate, with a window in s; statistics begin at `bottom_hz` (Hz). `scale` is
+/// the exact mode count over Weyl's, `correction` the contrast in the surface's own band over that of the statistics.
 pub(super) fn by_band(
     surface: &Surface,
+    bottom_hz: f64,
     [scale, correction]: [f64; 2],
     actuators: f64,
     window: f64,
@@ -104,9 +105,9 @@ pub(super) fn by_band(
     let tops = BANDS.iter().map(|share| low + share * (top - low));
     tops.filter(|hz| *hz < surface.emission.rate / 2.0)
         .map(|top_hz| {
-            let by_law = Cavity::of(surface, top_hz);
-            let counted = scale * by_law.modes();
-            let cavity = by_law.counted(counted);
+            let counted = scale * Cavity::of(surface, top_hz).modes();
+            let bottom_hz = if bottom_hz < top_hz { bottom_hz } else { low };
+            let cavity = Cavity::within(surface, [bottom_hz, top_hz]).counted(counted);
             let lambda_min_m = medium.lambda_min(top_hz);
             ByBand {
                 top_hz,

@@ -201,6 +201,25 @@ fn repetition_fades_into_single_pulses() {
 }
 
 #[test]
+fn repetition_does_not_depend_on_a_band_below_the_first_mode() {
+    // A loss factor makes waves of 0 Hz ring for ever, where there is no mode.
+    let mut surface = papers_surface();
+    surface.sheet.decay = Decay::LossFactor(0.015);
+    let from_nothing = design(&surface).unwrap();
+    surface.emission.band[0] = 0.999 * from_nothing.first_mode_hz;
+    let from_the_first = design(&surface).unwrap();
+    for (a, b) in from_nothing.contrast_by_rate.iter().zip(&from_the_first.contrast_by_rate) {
+        assert_eq!(a.rate_hz, b.rate_hz);
+        close(a.contrast, b.contrast, 0.02);
+    }
+    // Once a second is as good as once.
+    let seldom = &from_nothing.contrast_by_rate[0];
+    assert!(seldom.rate_hz <= 1.0);
+    close(seldom.contrast, from_nothing.contrast_predicted, 0.1);
+    close(from_nothing.decay_time_s, from_the_first.decay_time_s, 0.01);
+}
+
+#[test]
 fn decay_may_depend_on_frequency() {
     let mut surface = papers_surface();
     surface.sheet.decay = Decay::Table(vec![(0.0, 0.07), (3000.0, 0.07)]);
