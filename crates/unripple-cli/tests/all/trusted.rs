@@ -296,3 +296,19 @@ fn whoever_is_stopped_leaves_a_library_that_says_so() {
     json(&with(&["--without", "a3"]));
     assert!(Library::open(&library).unwrap().doubts().is_empty());
 }
+
+#[test]
+fn a_library_of_bad_points_alone_is_no_success() {
+    let bench = Bench::new("takes-deaf-probe", 2, &[]);
+    // The probe's cable is out: its input has nothing but noise.
+    bench.bring_changed(2, |mut lines| {
+        let quiet = |i: usize| 1e-7 * (((i * 2_654_435_761) >> 7) % 1000) as f64;
+        let probe = lines.len() - 1;
+        lines[probe].iter_mut().enumerate().for_each(|(i, x)| *x = quiet(i));
+        lines
+    });
+    let (output, told, said) = bench.calibrate(2, &["--any-wiring"]);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert_eq!(told["bad"], serde_json::json!([0, 1]), "{told}");
+    assert!(said.contains("2 points measured by the probe are all bad"), "{said}");
+}

@@ -65,6 +65,7 @@ pub fn finish(
     spread(campaign, shelf, latency)?;
     sensors(campaign, shelf)?;
     lacking(campaign, shelf)?;
+    useless(shelf)?;
     verify::check(shelf, campaign.surface, campaign.model, &campaign.settings)?;
     recorded(shelf)?;
     Ok(shelf.library.set_doubts(UNFINISHED, Vec::new())?)
@@ -221,6 +222,25 @@ fn lacking(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
         )
     });
     Ok(shelf.library.set_doubts(OWN, found.into_iter().collect())?)
+}
+
+/// Doubts a library none of whose probed points is good.
+fn useless(shelf: &mut Shelf) -> Result<(), TaskError> {
+    const CHECK: &str = "probed";
+    let count = |state: PointState| {
+        (0..shelf.probed).filter(|point| shelf.library.state(*point) == Some(state)).count()
+    };
+    let (bad, good) = (count(PointState::Bad), count(PointState::Measured));
+    let found = (bad > 0 && good == 0).then(|| {
+        let why = "expected some that are good: look at what is said of each, at the probe and at the levels, and measure them again";
+        Doubt::of(CHECK, format!("{} measured by the probe {} bad, {why}", points(bad), if bad == 1 { "is" } else { "are all" }))
+    });
+    Ok(shelf.library.set_doubts(CHECK, found.into_iter().collect())?)
+}
+
+/// A number of points in words.
+fn points(count: usize) -> String {
+    format!("{count} point{}", if count == 1 { "" } else { "s" })
 }
 
 /// Leaves the actuators' own points out of figures, where sensors are of another scale than the probe.
