@@ -37,7 +37,7 @@ fn killed(run: &[&str], times: usize, random: &mut Random) -> Value {
 /// The film as it truly is.
 fn truth() -> Responses {
     let truth = Perturbation { seed: SEED, ..Perturbation::default() }.truth(&papers_surface()).unwrap();
-    let options = ResponseOptions { accuracy: 1e-4, ..ResponseOptions::default() };
+    let options = ResponseOptions { accuracy: 1e-4.into(), ..ResponseOptions::default() };
     let Responses::Modal(mut modal) = responses(&truth.surface, &options).unwrap() else { unreachable!() };
     for (a, gain) in truth.drive_gains.iter().enumerate() {
         (0..modal.poles.len()).for_each(|m| modal.input[(a, m)] *= gain);

@@ -100,6 +100,9 @@ pub struct ModalResponses {
     pub shapes: Arc<dyn Shapes>,
     /// Frequency band, sample rate and region for which the responses are valid.
     pub conditions: Conditions,
+    /// A bound of the relative error with which the natural frequencies of the sheet were computed; 0 where they are exact, or not from a
+    /// computation.
+    pub frequency_error: f64,
 }
 
 /// Sampled impulse responses at fixed points, as float32 values in m/s per unit impulse, stored as `[point][actuator][sample]`. Clones

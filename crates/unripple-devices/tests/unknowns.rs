@@ -87,7 +87,7 @@ fn sweep(top: f64, samples: usize) -> impl Fn(usize) -> f64 {
 fn signal_to_noise_under_a_sweep_is_what_was_asked() {
     let truth = Perturbation { seed: 3, ..Default::default() }.truth(&film(1500.0)).unwrap();
     let modes = truth.modes(None).unwrap();
-    let options = VirtualOptions { accuracy: 1e-4, ..Default::default() };
+    let options = VirtualOptions { accuracy: 1e-4.into(), ..Default::default() };
     let (mut sensors, mut probe) = (Vec::new(), Vec::new());
     for actuator in 0..8 {
         let mut device = Virtual::of_truth_with_modes(&truth, modes.clone(), &options).unwrap();

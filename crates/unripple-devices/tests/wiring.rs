@@ -22,7 +22,7 @@ fn known() -> &'static (Truth, Arc<Modes>, Expected) {
         let surface = film(1500.0);
         let truth = Perturbation { seed: 5, ..Default::default() }.truth(&surface).unwrap();
         let modes = truth.modes(None).unwrap();
-        let options = ResponseOptions { accuracy: 1e-4, ..Default::default() };
+        let options = ResponseOptions { accuracy: 1e-4.into(), ..Default::default() };
         let Ok(Responses::Modal(model)) = responses(&surface, &options) else { panic!() };
         (truth, modes, Expected::of_modes(&model, Some(PROBE_AT), 0.02))
     })
@@ -62,7 +62,8 @@ fn right_wires_are_right_and_latency_is_found() {
 fn where_the_model_holds_latency_is_exact() {
     let (_, _, expected) = known();
     let interface = Interface { latency: 431.0, ..Default::default() };
-    let options = VirtualOptions { probe: Some(PROBE_AT), interface, accuracy: 1e-4, ..Default::default() };
+    let options =
+        VirtualOptions { probe: Some(PROBE_AT), interface, accuracy: 1e-4.into(), ..Default::default() };
     let mut device = Virtual::new(&film(1500.0), &options).unwrap();
     let report = check_wiring(&mut device, expected, &WiringOptions::for_band([0.0, 3e3])).unwrap();
     assert!(report.is_right() && report.latency == 431, "{report:?}");

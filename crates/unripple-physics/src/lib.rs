@@ -47,4 +47,4 @@ pub use responses::{
     ResponseOptions, loaded_modes, response_modes, responses, responses_on, sample, sampled_hz, stepped_hz,
 };
 pub use stepper::{Channel, Plant, StepperOptions, VirtualSurface};
-pub use unripple_plates::{AIR_CELERITY, AIR_DENSITY, Medium, Modes, PhysicsError};
+pub use unripple_plates::{AIR_CELERITY, AIR_DENSITY, Accuracy, Medium, Modes, PhysicsError};

@@ -1,6 +1,8 @@
 //! Impulse responses of a surface, by modal superposition (poles and residues).
 
-use crate::{Footprint, Load, Loaded, Medium, Modes, Oscillations, PhysicsError, Transducer, transducers};
+use crate::{
+    Accuracy, Footprint, Load, Loaded, Medium, Modes, Oscillations, PhysicsError, Transducer, transducers,
+};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -31,8 +33,8 @@ pub struct ResponseOptions {
     /// Highest frequency of the modes included, in Hz; `None` for the top of the surface's band. The band and λ_min stored with the
     /// responses stay those of the surface.
     pub max_hz: Option<f64>,
-    /// Relative accuracy of the frequencies of the modes.
-    pub accuracy: f64,
+    /// Relative accuracy of the frequencies of the modes, and the largest error that is accepted where it is out of reach.
+    pub accuracy: Accuracy,
     /// Fingers that rest on the surface, as loads.
     pub contacts: Vec<Contact>,
     /// With loads, modes up to this multiple of `max_hz` (at least 1.1) are computed for their compliance at the loads.
@@ -41,7 +43,7 @@ pub struct ResponseOptions {
 
 impl Default for ResponseOptions {
     fn default() -> Self {
-        Self { max_hz: None, accuracy: 1e-6, contacts: Vec::new(), reach: 1.5 }
+        Self { max_hz: None, accuracy: Accuracy::from(1e-6), contacts: Vec::new(), reach: 1.5 }
     }
 }
 
@@ -132,12 +134,13 @@ pub fn responses_on(
 pub fn loaded_modes(
     surface: &Surface,
     top_hz: f64,
-    accuracy: f64,
+    accuracy: impl Into<Accuracy>,
 ) -> Result<Option<Vec<Pole>>, PhysicsError> {
     let mut below = surface.clone();
     below.emission.band = [0.0, top_hz];
     // Nothing is sampled: the rate is only to be no reason to refuse.
     below.emission.rate = below.emission.rate.max(3.0 * top_hz);
+    let accuracy = accuracy.into();
     let asked = Asked::of(&below, &ResponseOptions { accuracy, ..ResponseOptions::default() })?;
     if asked.bare() {
         return Ok(None);
@@ -173,7 +176,7 @@ struct Asked {
     fingers: Vec<Load>,
     max_hz: f64,
     reach: f64,
-    accuracy: f64,
+    accuracy: Accuracy,
 }
 
 impl Asked {
@@ -225,6 +228,7 @@ impl Asked {
     fn responses(&self, surface: &Surface, modes: Arc<Modes>) -> Result<Responses, PhysicsError> {
         let emission = &surface.emission;
         let [low, high] = emission.band;
+        let frequency_error = modes.error();
         let (poles, input, shapes) = if self.bare() {
             unloaded(modes, &self.transducers, low)
         } else {
@@ -238,7 +242,7 @@ impl Asked {
             lambda_min: Medium::of(&surface.sheet).lambda_min(high),
             outline: surface.outline.clone(),
         };
-        Ok(Responses::Modal(ModalResponses { ports, poles, input, shapes, conditions }))
+        Ok(Responses::Modal(ModalResponses { ports, poles, input, shapes, conditions, frequency_error }))
     }
 }
 
@@ -284,7 +288,7 @@ fn fingers(surface: &Surface, contacts: &[Contact]) -> Result<Vec<Load>, Physics
 /// Each response has `samples` samples from the impulse on, at the rate of the responses. Errors stay below about 2e-6 times the
 /// sum of the magnitudes of its modal weights.
 pub fn sample(responses: &ModalResponses, points: &[Point], samples: usize) -> SampledResponses {
-    let ModalResponses { ports, poles, input, shapes, conditions } = responses;
+    let ModalResponses { ports, poles, input, shapes, conditions, .. } = responses;
     let synth = ModalSynth::new(poles, conditions.rate, samples, LIBRARY_ACCURACY);
     let per_point = ports.len() * samples;
     let mut data = vec![0.0f32; points.len() * per_point];

@@ -35,6 +35,7 @@
 //! # Ok::<(), unripple_plates::PhysicsError>(())
 //! ```
 
+mod accuracy;
 mod damping;
 mod dispersion;
 mod elements;
@@ -45,6 +46,7 @@ mod modes;
 #[allow(dead_code)]
 mod spectrum;
 
+pub use accuracy::Accuracy;
 pub use damping::decay_rate;
 pub use dispersion::{AIR_CELERITY, AIR_DENSITY, Medium};
 pub use error::PhysicsError;

@@ -46,7 +46,9 @@ pub fn models(
         let under = touched.then(|| solved.model(surface, Some(hz), contacts)).transpose()?;
         Ok(Models { free, under })
     });
-    Ok(found?)
+    let (models, judging) = found?;
+    let judging = judging.told_of(surface, &models.free);
+    Ok((models, judging))
 }
 
 /// Refuses a highest frequency (Hz) of the modes to evaluate a drive on that is below the band of a surface, or above what its sample rate

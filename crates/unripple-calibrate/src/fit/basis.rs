@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use unripple_core::{Outline, Point, Shapes, Surface};
 use unripple_linalg::{Mat, MatRef, product};
-use unripple_physics::{Entry, Footprint, Medium, Modes, Transducer, sensors, transducers};
+use unripple_physics::{Accuracy, Entry, Footprint, Medium, Modes, Transducer, sensors, transducers};
 
 /// Half the distance of the central difference for slopes of mode shapes, in metres: relative error 2e-7 for a wave of 1000 rad/m.
 const STEP: f64 = 1e-6;
@@ -45,7 +45,7 @@ pub(super) struct Basis {
 impl Basis {
     /// The modes of a surface up to `max_hz`, and a profile of cosines with up to `order` half waves in all.
     pub fn new(surface: &Surface, max_hz: f64, order: usize) -> Result<Self, CalibrateError> {
-        let modes = Modes::solve(surface, max_hz, surface.accuracy.unwrap_or(ACCURACY))?;
+        let modes = Modes::solve(surface, max_hz, Accuracy::of(surface.accuracy, ACCURACY))?;
         let medium = Medium::of(&surface.sheet);
         let k = 2.0 * medium.wavenumber(TAU * max_hz);
         let extent = surface.outline.extent();

@@ -183,6 +183,7 @@ impl Answers<'_> {
                     lambda_min: fitted.lambda_min(nominal.emission.band[1]),
                     outline: nominal.outline.clone(),
                 },
+                frequency_error: 0.0,
             },
             bending_shares: modes.bending_shares,
         })

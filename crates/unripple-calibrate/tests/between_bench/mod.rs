@@ -46,7 +46,7 @@ impl Truth {
     pub fn unknown() -> Self {
         static TRUTH: LazyLock<Truth> = LazyLock::new(|| {
             let truth = Perturbation::default().truth(&papers_surface()).unwrap();
-            let options = ResponseOptions { accuracy: 1e-4, ..ResponseOptions::default() };
+            let options = ResponseOptions { accuracy: 1e-4.into(), ..ResponseOptions::default() };
             let Ok(Responses::Modal(mut modal)) = responses(&truth.surface, &options) else { unreachable!() };
             for (a, gain) in truth.drive_gains.iter().enumerate() {
                 modal.input.row_mut(a).iter_mut().for_each(|w| *w *= gain);

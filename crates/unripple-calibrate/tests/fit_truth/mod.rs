@@ -245,6 +245,7 @@ fn modal(surface: &Surface, modes: &Arc<Modes>) -> ModalResponses {
             lambda_min: Medium::of(&surface.sheet).lambda_min(surface.emission.band[1]),
             outline: surface.outline.clone(),
         },
+        frequency_error: 0.0,
     }
 }
 

@@ -132,7 +132,7 @@ impl Rig for Hands {
 }
 
 pub fn modal(surface: &Surface, max_hz: Option<f64>, accuracy: f64) -> ModalResponses {
-    match responses(surface, &ResponseOptions { max_hz, accuracy, ..Default::default() }) {
+    match responses(surface, &ResponseOptions { max_hz, accuracy: accuracy.into(), ..Default::default() }) {
         Ok(Responses::Modal(modal)) => modal,
         other => panic!("{other:?}"),
     }
@@ -148,7 +148,8 @@ pub fn calibrate(
 ) -> Found {
     let accuracy = if unknowns.is_some() { Truth::ACCURACY } else { 1e-6 };
     let model = modal(surface, None, accuracy);
-    let options = VirtualOptions { accuracy, ..VirtualOptions::to_be_measured(surface).unwrap() };
+    let options =
+        VirtualOptions { accuracy: accuracy.into(), ..VirtualOptions::to_be_measured(surface).unwrap() };
     let truth = unknowns.map(|unknowns| unknowns.truth(surface).unwrap());
     let device = match &truth {
         Some(truth) => Virtual::of_truth(truth, &options).unwrap(),
@@ -243,6 +244,7 @@ fn modal_of(plant: &Responses, surface: &Surface) -> ModalResponses {
         input,
         shapes: Arc::new(Kept { shapes: plant.shapes.clone(), kept }),
         conditions: plant.conditions.clone(),
+        frequency_error: plant.frequency_error,
     }
 }
 

@@ -31,7 +31,7 @@ pub static WORLD: LazyLock<World> = LazyLock::new(|| {
     let truth = Perturbation::default().truth(&surface).unwrap();
     let modal = |surface: &Surface| match responses(
         surface,
-        &ResponseOptions { accuracy: 1e-4, ..Default::default() },
+        &ResponseOptions { accuracy: 1e-4.into(), ..Default::default() },
     ) {
         Ok(Responses::Modal(modal)) => modal,
         other => panic!("{other:?}"),

@@ -64,3 +64,49 @@ fn a_coarser_accuracy_reaches_every_command() {
     assert!(refused(&["devices", "--accuracy", "0.1"], 2).contains("--accuracy"));
     assert!(refused(&["fit", &library, "--accuracy", "2"], 2).contains("accuracy"));
 }
+
+/// A plate supported along a square with a shallow dent in one side: meshes converge slowly at the dent.
+const DENTED: &str = r#"
+format = 1
+[outline]
+polygon_mm = [[0, 0], [100, 0], [100, 100], [50, 98], [0, 100]]
+edge = "supported"
+[sheet]
+material = "glass"
+thickness_mm = 1
+decay_time_ms = 20
+[drive]
+band_hz = [0, 6000]
+sample_rate_hz = 48000
+[[actuator]]
+at_mm = [20, 32]
+[[actuator]]
+at_mm = [74, 26]
+"#;
+
+#[test]
+fn what_is_out_of_reach_is_had_with_its_error_unless_it_was_asked_for() {
+    let folder = Scratch::new("dented");
+    let file = folder.path().join("dented.toml");
+    fs::write(&file, DENTED).unwrap();
+    let (file, out) = (file.display().to_string(), folder.path().join("out").display().to_string());
+    let modes = json(&["modes", &file]);
+    let error = modes["relative_error"].as_f64().unwrap();
+    assert!(error > 1e-4 && error < 1e-2, "{error}");
+    let about_accuracy = |report: &serde_json::Value| {
+        let notes = report["notes"].as_array().cloned().unwrap_or_default();
+        notes
+            .iter()
+            .filter(|note| note["topic"] == "accuracy")
+            .map(|note| note["text"].to_string())
+            .collect::<String>()
+    };
+    assert!(about_accuracy(&modes).contains("not within 1e-6"), "{modes}");
+    let focus = ["focus", &file, "--at", "60,50", "-o", &out, "--no-figures"];
+    assert!(about_accuracy(&json(&focus)).contains("not within 1e-4, the default"));
+    assert!(json(&["design", &file])["mode_count"].as_f64().unwrap() > 3.0);
+    let told = refused(&["modes", &file, "--accuracy", "1e-4"], 2);
+    assert!(told.contains("expected an error of at most 1e-4"), "{told}");
+    // With an accuracy that can be had nothing is remarked.
+    assert_eq!(about_accuracy(&json(&["modes", &file, "--accuracy", "0.01"])), "");
+}

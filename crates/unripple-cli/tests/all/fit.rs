@@ -22,7 +22,7 @@ fn film() -> String {
 /// The true responses behind a surface and a seed, its drives' gains included.
 fn truth(surface: &Surface, seed: u64) -> ModalResponses {
     let truth = Perturbation { seed, ..Perturbation::default() }.truth(surface).unwrap();
-    let options = ResponseOptions { accuracy: 1e-4, ..ResponseOptions::default() };
+    let options = ResponseOptions { accuracy: 1e-4.into(), ..ResponseOptions::default() };
     let Ok(Responses::Modal(mut modal)) = responses(&truth.surface, &options) else { unreachable!() };
     for (a, gain) in truth.drive_gains.iter().enumerate() {
         modal.input.row_mut(a).iter_mut().for_each(|w| *w *= gain);

@@ -17,7 +17,7 @@ use unripple_core::{Device, DeviceError, Layout, PROBE, Point, State, Status, Su
 use unripple_physics::stepper::{
     Channel, InjectedFaults, Misbehaving, Plant, Reading, StepperOptions, VirtualSurface,
 };
-use unripple_physics::{Footprint, Modes, stepped_hz};
+use unripple_physics::{Accuracy, Footprint, Modes, stepped_hz};
 use workings::{Workings, lock};
 
 /// Options of a virtual device: blocks, faults, probe, accuracy.
@@ -36,8 +36,8 @@ pub struct VirtualOptions {
     /// Highest frequency of the modes, in Hz. `None` stands for the top of the band, or for 1.5 times that (up to 0.45 of the sample
     /// rate) where coils or masses load the surface, since they couple to modes above the band.
     pub max_hz: Option<f64>,
-    /// Relative accuracy of the modes' natural frequencies.
-    pub accuracy: f64,
+    /// Relative accuracy of the modes' natural frequencies, and the largest error that is accepted where it is out of reach.
+    pub accuracy: Accuracy,
     /// Largest number of taps at once.
     pub taps: usize,
     /// Whether a block takes as long as it lasts. Otherwise a block passes as fast as it can be computed.
@@ -53,7 +53,7 @@ impl Default for VirtualOptions {
             interface: Interface::default(),
             probe: None,
             max_hz: None,
-            accuracy: 1e-6,
+            accuracy: Accuracy::from(1e-6),
             taps: 1,
             real_time: false,
         }

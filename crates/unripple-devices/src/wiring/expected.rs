@@ -79,7 +79,7 @@ impl Expected {
         probe: Option<Point>,
         duration: f64,
     ) -> Self {
-        let ModalResponses { ports, poles, input, shapes, conditions } = responses;
+        let ModalResponses { ports, poles, input, shapes, conditions, .. } = responses;
         let samples = (duration.clamp(0.0, 60.0) * conditions.rate).ceil() as usize;
         let outputs = ports.len();
         if let Some(at) = probe {

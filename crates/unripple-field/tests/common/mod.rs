@@ -105,6 +105,7 @@ impl Film {
                 lambda_min: 2.0 * PI / k_top,
                 outline,
             },
+            frequency_error: 0.0,
         }
     }
 

@@ -88,6 +88,7 @@ impl Membrane {
                 lambda_min: 2.0 * PI / k_top,
                 outline,
             },
+            frequency_error: 0.0,
         }
     }
 

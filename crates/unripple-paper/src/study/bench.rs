@@ -137,6 +137,7 @@ impl Bench {
             input: self.shapes_at(actuators),
             shapes: Arc::new(Leading { shapes: self.shapes.clone(), modes: self.modes() }),
             conditions: self.conditions.clone(),
+            frequency_error: 0.0,
         })
     }
 

@@ -3,7 +3,7 @@
 use super::paper::WAVELENGTH;
 use super::weyl::Weyl;
 use super::{Cavity, Recommended, Windows};
-use crate::{Medium, Modes, PhysicsError};
+use crate::{Accuracy, Medium, Modes, PhysicsError};
 use std::f64::consts::TAU;
 use unripple_core::{OutOfRange, Surface};
 
@@ -180,8 +180,8 @@ pub(super) type Counted = Result<(usize, Option<f64>), String>;
 /// Solves for the modes and counts them.
 pub(super) fn count(surface: &Surface) -> Counted {
     check(surface).map_err(|e| e.to_string())?;
-    let modes = Modes::solve(surface, surface.emission.band[1], surface.accuracy.unwrap_or(ACCURACY))
-        .map_err(|e| e.to_string())?;
+    let accuracy = Accuracy::of(surface.accuracy, ACCURACY);
+    let modes = Modes::solve(surface, surface.emission.band[1], accuracy).map_err(|e| e.to_string())?;
     Ok(counted(surface, &modes))
 }
 

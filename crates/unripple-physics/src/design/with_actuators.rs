@@ -1,7 +1,7 @@
 //! The modes of a surface with its actuators on it, counted: masses, springs, coils and electrical loads.
 
 use super::ground::ACCURACY;
-use crate::{PhysicsError, loaded_modes};
+use crate::{Accuracy, PhysicsError, loaded_modes};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use unripple_core::Surface;
@@ -24,7 +24,7 @@ impl WithActuators {
     /// Those of [`loaded_modes`].
     pub(super) fn of(surface: &Surface) -> Result<Option<Self>, PhysicsError> {
         let [low, top] = surface.emission.band;
-        let Some(modes) = loaded_modes(surface, top, surface.accuracy.unwrap_or(ACCURACY))? else {
+        let Some(modes) = loaded_modes(surface, top, Accuracy::of(surface.accuracy, ACCURACY))? else {
             return Ok(None);
         };
         let first = modes.iter().find(|mode| mode.omega > 0.0);

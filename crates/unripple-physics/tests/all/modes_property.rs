@@ -190,7 +190,7 @@ proptest! {
             .enumerate()
             .map(|(i, at)| Actuator { name: format!("a{i}"), at: *at, kind: ActuatorKind::Force, contact_radius: 0.0 })
             .collect();
-        let options = ResponseOptions { accuracy: 1e-3, ..Default::default() };
+        let options = ResponseOptions { accuracy: 1e-3.into(), ..Default::default() };
         let Responses::Modal(modal) = responses(&surface, &options).unwrap() else { panic!("not modal") };
         let sampled = sample(&modal, &points, 200);
         let (there, back) = (sampled.response(0, 1), sampled.response(1, 0));

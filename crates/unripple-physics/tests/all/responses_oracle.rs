@@ -51,7 +51,7 @@ fn supported_film_against_its_double_series() {
 #[test]
 fn the_library_is_the_modal_sum() {
     let surface = film_with_actuators(&[(12.0, 31.0), (9.0, 84.0), (40.0, 140.0)]);
-    let modal = modal(&surface, &ResponseOptions { accuracy: 1e-4, ..Default::default() });
+    let modal = modal(&surface, &ResponseOptions { accuracy: 1e-4.into(), ..Default::default() });
     let points: Vec<Point> = (0..130).map(|i| Point::from_mm(1.0 + f64::from(i), 75.5)).collect();
     let sampled = sample(&modal, &points, 700);
     for p in [0, 63, 64, 129] {
@@ -182,11 +182,11 @@ fn a_force_over_a_disc() {
 #[test]
 fn no_actuators_no_points_no_samples() {
     let surface = film_with_actuators(&[]);
-    let none = modal(&surface, &ResponseOptions { accuracy: 1e-2, ..Default::default() });
+    let none = modal(&surface, &ResponseOptions { accuracy: 1e-2.into(), ..Default::default() });
     assert_eq!(sample(&none, &[Point::from_mm(1.0, 1.0)], 10).points.len(), 1);
     let one = modal(
         &film_with_actuators(&[(12.0, 31.0)]),
-        &ResponseOptions { accuracy: 1e-2, ..Default::default() },
+        &ResponseOptions { accuracy: 1e-2.into(), ..Default::default() },
     );
     assert_eq!(sample(&one, &[], 10).points.len(), 0);
     assert_eq!(sample(&one, &[Point::from_mm(1.0, 1.0)], 0).response(0, 0).len(), 0);

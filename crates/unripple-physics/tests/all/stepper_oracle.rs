@@ -25,8 +25,10 @@ const PLACES: [(f64, f64); 8] = [
 const FRAMES: usize = 300;
 
 fn film() -> ModalResponses {
-    match responses(&film_with_actuators(&PLACES), &ResponseOptions { accuracy: 1e-5, ..Default::default() })
-    {
+    match responses(
+        &film_with_actuators(&PLACES),
+        &ResponseOptions { accuracy: 1e-5.into(), ..Default::default() },
+    ) {
         Ok(Responses::Modal(modal)) => modal,
         other => panic!("{other:?}"),
     }

@@ -1,7 +1,7 @@
 //! The request for modes: top frequency, accuracy, and the wave properties of the sheet.
 
 use crate::damping::decay_rate;
-use crate::{Medium, PhysicsError};
+use crate::{Accuracy, Medium, PhysicsError};
 use std::f64::consts::TAU;
 use unripple_core::{Decay, Surface, require};
 
@@ -20,16 +20,18 @@ pub(crate) struct Bounds {
     pub(crate) max_hz: f64,
     /// Wavenumber at the top frequency, with air, in rad/m.
     pub(crate) k_top: f64,
-    /// Relative accuracy of the frequencies.
+    /// Relative accuracy of the frequencies that is aimed at.
     pub(crate) accuracy: f64,
+    /// Largest relative error with which they are given.
+    pub(crate) most: f64,
 }
 
 impl Bounds {
-    /// The bounds of a surface's modes up to `max_hz` (Hz), to a relative `accuracy` of their frequencies.
+    /// The bounds of a surface's modes up to `max_hz` (Hz), to an accuracy of their frequencies.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for a value out of its range.
-    pub(crate) fn of(surface: &Surface, max_hz: f64, accuracy: f64) -> Result<Self, PhysicsError> {
+    pub(crate) fn of(surface: &Surface, max_hz: f64, accuracy: Accuracy) -> Result<Self, PhysicsError> {
         let sheet = &surface.sheet;
         let medium = Medium::of(sheet);
         let positive = "a positive finite number";
@@ -46,7 +48,9 @@ impl Bounds {
         )?;
         let stiff = medium.tension + medium.bending_stiffness;
         require("tension and bending stiffness together", stiff > 0.0, "more than 0", stiff)?;
-        require("accuracy", (1e-12..=0.1).contains(&accuracy), "between 1e-12 and 0.1", accuracy)?;
+        let Accuracy { aim, most } = accuracy;
+        require("accuracy", (1e-12..=0.1).contains(&aim), "between 1e-12 and 0.1", aim)?;
+        require("largest error accepted", most >= aim, "at least the accuracy aimed at", most)?;
         let k_top = medium.wavenumber(TAU * max_hz);
         require(
             "top frequency in Hz",
@@ -54,7 +58,7 @@ impl Bounds {
             "a frequency whose waves are longer than 7 nm",
             max_hz,
         )?;
-        Ok(Self { medium, poisson, max_hz, k_top, accuracy })
+        Ok(Self { medium, poisson, max_hz, k_top, accuracy: aim, most })
     }
 
     /// The sheet without its air.

@@ -1,5 +1,6 @@
 //! Normal modes of a sheet: natural frequencies, decay rates and mass-normalised shapes.
 
+mod best;
 mod bounds;
 pub(crate) mod eigen;
 mod found;
@@ -8,7 +9,7 @@ mod legendre;
 mod memory;
 mod rectangle;
 
-use crate::PhysicsError;
+use crate::{Accuracy, PhysicsError};
 use bounds::Bounds;
 use rectangle::Problem;
 use std::f64::consts::TAU;
@@ -33,8 +34,9 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// Computes all modes of a surface up to `max_hz` (Hz), with a relative `accuracy` of their frequencies from 1e-12 to 0.1. On a
-    /// mesh (see below), about 1e-7 is the best that can be reached.
+    /// Computes all modes of a surface up to `max_hz` (Hz), with a relative `accuracy` of their frequencies from 1e-12 to 0.1: a number,
+    /// which is refused where it is out of reach, or an [`Accuracy`] with a larger error that is accepted there. On a mesh (see below),
+    /// about 1e-7 is the best that can be reached.
     ///
     /// Clamped, supported, free and elastic sides may be mixed, and tension and bending act together. The modes of uniform
     /// isotropic rectangles without springs are exact if all sides are supported or if there is no bending stiffness. For other such
@@ -58,7 +60,7 @@ impl Modes {
     /// [`PhysicsError::Range`] for values out of range; [`PhysicsError::Outline`] for an invalid outline;
     /// [`PhysicsError::Unsupported`] for a sheet without restoring force, with free edges only and without bending stiffness;
     /// [`PhysicsError::TooLarge`] if more than 4 GiB of memory would be needed; [`PhysicsError::NotConverged`] if refinement does not
-    /// reach the accuracy; [`PhysicsError::Solver`] if the eigenvalue problem of a mesh cannot be solved.
+    /// reach an accuracy that is accepted; [`PhysicsError::Solver`] if the eigenvalue problem of a mesh cannot be solved.
     ///
     /// ```
     /// # use unripple_core::*;
@@ -75,8 +77,12 @@ impl Modes {
     /// assert!((hz[0] - 163.7436).abs() < 1e-3);
     /// # Ok::<(), unripple_plates::PhysicsError>(())
     /// ```
-    pub fn solve(surface: &Surface, max_hz: f64, accuracy: f64) -> Result<Self, PhysicsError> {
-        let bounds = Bounds::of(surface, max_hz, accuracy)?;
+    pub fn solve(
+        surface: &Surface,
+        max_hz: f64,
+        accuracy: impl Into<Accuracy>,
+    ) -> Result<Self, PhysicsError> {
+        let bounds = Bounds::of(surface, max_hz, accuracy.into())?;
         rests(surface, &bounds)?;
         let found = match Problem::of(surface, bounds)? {
             Some(rectangle) => rectangle::solve(&rectangle)?,

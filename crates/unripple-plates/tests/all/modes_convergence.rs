@@ -4,7 +4,7 @@ use crate::modes_common;
 
 use modes_common::*;
 use unripple_core::*;
-use unripple_plates::Modes;
+use unripple_plates::{Accuracy, Modes, PhysicsError};
 
 /// Largest relative error of the frequencies against a reference, and the error claimed; fails if one is below.
 fn errors(surface: &Surface, max_hz: f64, accuracy: f64, reference: &Modes) -> (f64, f64) {
@@ -80,4 +80,34 @@ fn tightly_stretched_and_stiff_sheets_join_their_limits() {
         let rise = found / membrane - 1.0;
         assert!((rise / (2.0 * layer / 0.15) - 1.0).abs() < 20.0 * layer / 0.15, "{tension}: {rise} {layer}");
     }
+}
+
+/// A plate supported along a square whose upper side is dented by some millimetres in 100 mm: at the dent curvature is singular, and the
+/// weaker the dent, the slower any mesh converges.
+fn dented(dent_mm: f64) -> Surface {
+    let mut surface = unit_plate(1.0, 0.3, Edges::All(Edge::Supported));
+    let corners = [(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (50.0, 100.0 - dent_mm), (0.0, 100.0)];
+    let corner = |(x, y): (f64, f64)| Point::new(0.01 * x, 0.01 * y);
+    surface.outline =
+        Outline::new(Shape::Polygon(corners.map(corner).to_vec())).with_edges(Edges::All(Edge::Supported));
+    surface
+}
+
+#[test]
+fn what_is_out_of_reach_is_refused_or_given_with_its_error() {
+    let surface = dented(2.0);
+    let refused = Modes::solve(&surface, 10.0, 1e-4).unwrap_err();
+    let PhysicsError::NotConverged { expected, found, .. } = refused else { panic!("{refused}") };
+    assert_eq!(expected, 1e-4);
+    let best = Modes::solve(&surface, 10.0, Accuracy::or_best(1e-4)).unwrap();
+    assert_eq!(best.error(), found);
+    assert!(best.error() > 1e-4 && best.error() < 1e-2, "{}", best.error());
+    // What is asked for within that is had at once, and agrees.
+    let coarse = Modes::solve(&surface, 10.0, 1e-2).unwrap();
+    for (best, coarse) in best.frequencies_hz().iter().zip(coarse.frequencies_hz()) {
+        assert!((coarse / best - 1.0).abs() < 1e-2, "{coarse} {best}");
+    }
+    // A larger error than is accepted is refused as well.
+    let most = 0.5 * best.error();
+    assert!(Modes::solve(&surface, 10.0, Accuracy { aim: 1e-4, most }).is_err());
 }

@@ -90,7 +90,7 @@ pub(super) fn on(
         window_why: chosen.as_ref().map(|chosen| chosen.why.clone()),
         modes: modes(&known),
         judged_to_hz: judging.hz,
-        judged_to_why: judging.note.map(|note| note.text),
+        judged_to_why: judging.why(),
         methods,
         failed,
         fronts,

@@ -46,7 +46,7 @@ pub fn checks(
 
 fn contrast(free: &TargetFigures, window: Window, judging: &Judging) -> Check {
     let contrast = free.contrast.unwrap_or(0.0);
-    let why = judging.note.as_ref().map_or(String::new(), |note| format!("; {}", note.text));
+    let why = judging.why().map_or(String::new(), |why| format!("; {why}"));
     let found = format!(
         "contrast {contrast:.1} in a window of {:.1} ms, on the modes up to {} Hz{why}",
         1e3 * window.seconds,

@@ -4,10 +4,11 @@ use super::{Ask, Loaded, Report};
 use crate::curves::flattened;
 use crate::numbers::above_zero;
 use crate::{Progress, TaskError, go_on};
-use unripple::physics::{Modes, loaded_modes};
+use unripple::act::{Note, less_accurate};
+use unripple::physics::{Accuracy, Modes, loaded_modes};
 
-/// Relative accuracy where nothing else is asked for: a phase error of 1e-3 rad at 3 kHz after 50 ms. Smaller, modes that need a mesh
-/// take minutes.
+/// Relative accuracy where nothing else is asked for and it can be had: a phase error of 1e-3 rad at 3 kHz after 50 ms. Smaller, modes that
+/// need a mesh take minutes.
 const ACCURACY: f64 = 1e-6;
 
 /// The modes of a surface up to a frequency.
@@ -18,7 +19,7 @@ const ACCURACY: f64 = 1e-6;
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let surface = ask.surface.load()?;
     let top = above_zero(ask.top_hz.unwrap_or(surface.emission.band[1]), "top_hz", "Hz")?;
-    let accuracy = ask.accuracy.or(surface.accuracy).unwrap_or(ACCURACY);
+    let accuracy = Accuracy::of(ask.accuracy.or(surface.accuracy), ACCURACY);
     go_on(progress)?;
     progress.stage("modes");
     let modes = Modes::solve(&surface, top, accuracy).map_err(TaskError::input)?;
@@ -26,6 +27,9 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     go_on(progress)?;
     progress.stage("modes with the actuators on the sheet");
     let loaded = loaded_modes(&surface, top, accuracy).map_err(TaskError::input)?;
+    let error = modes.error();
+    let inexact =
+        (error > accuracy.aim).then(|| Note { topic: "accuracy", text: less_accurate(error, accuracy.aim) });
     Ok(Report {
         surface: surface.name.clone(),
         max_hz: top,
@@ -33,8 +37,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         frequencies_hz: frequencies.to_vec(),
         decay_times_s: decays.iter().map(|t| t.is_finite().then_some(*t)).collect(),
         bending_shares: modes.bending_shares().to_vec(),
-        relative_error: modes.error(),
+        relative_error: error,
         loaded: loaded.map(|modes| Loaded::of(&modes)),
-        notes: flattened(&surface).into_iter().collect(),
+        notes: flattened(&surface).into_iter().chain(inexact).collect(),
     })
 }

@@ -92,7 +92,7 @@ pub(crate) fn judge<T>(
     let asked = Strength::of(&played.drive, &limits, DecidedBy::Asked);
     let by = if asked.below_limit > 1.0 + HELD { DecidedBy::Asked } else { DecidedBy::Limit };
     report.level = Some(Strength { decided_by: by, ..asked });
-    on.tell(plant, &mut report);
+    on.told_of(plant, &judging).tell(plant, &mut report);
     report.notes.extend(missed.map(|missed| missed.on_planning(&surface, planned_hz)));
     report.waveforms = played.waveforms;
     report.silent = played.silent;

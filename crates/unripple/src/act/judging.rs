@@ -1,7 +1,8 @@
 //! The modes that a drive is evaluated on: up to which frequency, and what a report says of them.
 
+use super::model::inexact;
 use super::{ActError, Note, Report};
-use crate::core::Surface;
+use crate::core::{Responses, Surface};
 use crate::physics::{PhysicsError, sampled_hz};
 
 /// Multiple of the band up to which the modes go that drives are evaluated on by default. On the modes that it was computed from a
@@ -23,6 +24,8 @@ pub struct Judging {
     pub hz: f64,
     /// Reason why the modes end at the top of the band, where those up to the default frequency are out of reach.
     pub note: Option<Note>,
+    /// How accurate their frequencies are, where that is less than was aimed at.
+    pub inexact: Option<Note>,
 }
 
 impl Judging {
@@ -63,13 +66,24 @@ impl Judging {
         solve: impl FnMut(f64) -> Result<T, ActError>,
     ) -> Result<(T, Self), ActError> {
         let Reached { found, hz, missed } = reached(surface, asked, bands, solve)?;
-        Ok((found, Self { hz, note: missed.map(|missed| missed.on_judging(surface, hz)) }))
+        Ok((found, Self { hz, note: missed.map(|missed| missed.on_judging(surface, hz)), inexact: None }))
+    }
+
+    /// These modes with a note if the frequencies of `responses`, which were computed from them, are less accurate than was aimed at.
+    pub fn told_of(self, surface: &Surface, responses: &Responses) -> Self {
+        Self { inexact: inexact(surface, responses), ..self }
+    }
+
+    /// Why the modes are not those that were wanted, in words.
+    pub fn why(&self) -> Option<String> {
+        let texts: Vec<&str> = self.note.iter().chain(&self.inexact).map(|note| note.text.as_str()).collect();
+        (!texts.is_empty()).then(|| texts.join("; "))
     }
 
     /// Adds to a report what its metrics were computed on: the modes of `surface` up to this frequency, with the note.
     pub fn tell(&self, surface: &Surface, report: &mut Report) {
         report.judged_on = Some(format!("{}, modes up to {} Hz", surface.name, self.hz));
-        report.notes.extend(self.note.clone());
+        report.notes.extend(self.note.iter().chain(&self.inexact).cloned());
     }
 }
 
@@ -256,7 +270,7 @@ mod tests {
             let refused = Judging::of(&film(48e3), Some(6000.0), short(error.clone())).unwrap_err();
             assert_eq!(refused, ActError::Physics(error.clone()));
             let (found, judging) = Judging::of(&film(48e3), Some(3000.0), short(error)).unwrap();
-            assert_eq!((found, judging), (3000.0, Judging { hz: 3000.0, note: None }));
+            assert_eq!((found, judging), (3000.0, Judging { hz: 3000.0, note: None, inexact: None }));
         }
         // What is wrong with fewer modes as well is an error at once.
         let wrong = OutOfRange::new("sample rate in Hz", "a positive number", 0.0);

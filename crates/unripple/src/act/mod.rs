@@ -34,7 +34,7 @@ pub use fingers::{Felt, felt};
 pub use judge::{Judged, judge, known};
 pub use judging::{JUDGED_BANDS, Judging, Missed, Reached, judged_hz, reached};
 pub use level::Level;
-pub use model::{accuracy, model};
+pub use model::{accuracy, inexact, less_accurate, model};
 pub use note::{Note, nearby};
 pub use power::power;
 pub use readouts::{CELLS, Readouts};

@@ -1,8 +1,8 @@
 //! Modelled responses of a surface, with fingers on it.
 
-use super::ActError;
+use super::{ActError, Note};
 use crate::core::{Contact, Responses, Shape, Surface};
-use crate::physics::{ResponseOptions, responses};
+use crate::physics::{Accuracy, ResponseOptions, responses};
 use std::f64::consts::TAU;
 
 /// Relative accuracy of natural frequencies that are computed on a mesh: a phase error of 0.06 rad at 3 kHz after 30
@@ -13,16 +13,29 @@ const MESHED: f64 = 1e-4;
 /// first, since few modes are computed quickly.
 const FARTHER: [f64; 6] = [1.1, 1.3, 2.0, 4.0, 8.0, 16.0];
 
-/// Relative accuracy, a ratio, to which the natural frequencies of a surface are computed: its own, or by default that of
-/// [`ResponseOptions`] for plain rectangles, 1e-4 where a mesh is needed.
-pub fn accuracy(surface: &Surface) -> f64 {
-    if let Some(asked) = surface.accuracy {
-        return asked;
-    }
+/// Relative accuracy to which the natural frequencies of a surface are computed: its own, or by default that of [`ResponseOptions`] for
+/// plain rectangles, 1e-4 where a mesh is needed. Where that is out of reach, the surface's own is refused, and in place of the default
+/// the best that can be reached is taken ([`Accuracy::or_best`]).
+pub fn accuracy(surface: &Surface) -> Accuracy {
     let plain = matches!(surface.outline.shape, Shape::Rectangle { .. })
         && surface.outline.holes.is_empty()
         && surface.sheet.uneven.is_nothing();
-    if plain { ResponseOptions::default().accuracy } else { MESHED }
+    Accuracy::of(surface.accuracy, if plain { ResponseOptions::default().accuracy.aim } else { MESHED })
+}
+
+/// A note that natural frequencies are less accurate than was aimed at, where that was out of reach.
+pub fn inexact(surface: &Surface, responses: &Responses) -> Option<Note> {
+    let Responses::Modal(modal) = responses else { return None };
+    let (aim, error) = (accuracy(surface).aim, modal.frequency_error);
+    (error > aim).then(|| Note { topic: "accuracy", text: less_accurate(error, aim) })
+}
+
+/// In words, that natural frequencies have a relative `error` larger than the one aimed at.
+pub fn less_accurate(error: f64, aim: f64) -> String {
+    format!(
+        "natural frequencies are within {error:.1e} of themselves, not within {aim:e}, the default: finer meshes would not fit in memory, or \
+         rounding errors limit them (--accuracy asks for another accuracy, and refuses what does not reach it)"
+    )
 }
 
 /// The responses of a surface with fingers at `contacts`, on modes up to `max_hz` (Hz), or those of its band.

@@ -109,6 +109,10 @@ impl Draft {
                 }
                 self.responses().cloned()
             })
+            .map(|(responses, judging)| {
+                let judging = judging.told_of(&self.surface, &responses);
+                (responses, judging)
+            })
         });
         found.as_ref().map_err(Clone::clone)
     }

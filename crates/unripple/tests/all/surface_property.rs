@@ -70,7 +70,7 @@ fn on(surface: &Surface, (x, y): (f64, f64)) -> Point {
 }
 
 fn modelled(surface: &Surface) -> Responses {
-    responses(surface, &ResponseOptions { accuracy: 1e-4, ..ResponseOptions::default() }).unwrap()
+    responses(surface, &ResponseOptions { accuracy: 1e-4.into(), ..ResponseOptions::default() }).unwrap()
 }
 
 /// Velocity at a place under a drive, sample by sample.

@@ -5,7 +5,7 @@ mod places;
 
 use super::weyl::Weyl;
 use super::{Cavity, Statistics};
-use crate::{Medium, ResponseOptions, responses};
+use crate::{Accuracy, Medium, ResponseOptions, responses};
 pub(super) use modal::{Modal, Term, integral};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -122,7 +122,7 @@ impl Windows {
             );
         }
         // A coarser accuracy may be all that can be had; a finer one would change nothing.
-        let accuracy = surface.accuracy.map_or(ACCURACY, |asked| asked.max(ACCURACY));
+        let accuracy = Accuracy::or_best(surface.accuracy.map_or(ACCURACY, |asked| asked.max(ACCURACY)));
         let options = ResponseOptions { accuracy, ..ResponseOptions::default() };
         match responses(surface, &options) {
             Ok(Responses::Modal(responses)) => match Modal::of(&responses) {

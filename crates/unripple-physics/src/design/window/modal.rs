@@ -41,7 +41,7 @@ impl Modal {
     /// # Errors
     /// In words, why no contrast can be computed from these responses.
     pub fn of(responses: &ModalResponses) -> Result<Self, &'static str> {
-        let ModalResponses { ports, poles, input, shapes, conditions } = responses;
+        let ModalResponses { ports, poles, input, shapes, conditions, .. } = responses;
         let actuators: Vec<Point> = ports.iter().map(|port| port.at).collect();
         let points = grid(&conditions.outline, conditions.lambda_min);
         let mut targets = targets(&conditions.outline, &actuators, conditions.lambda_min);

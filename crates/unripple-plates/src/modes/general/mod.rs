@@ -5,6 +5,7 @@ mod rates;
 mod sizing;
 mod solution;
 
+use super::best::Best;
 use super::bounds::Bounds;
 use super::found::Found;
 use super::memory::{GIB, MEMORY};
@@ -36,6 +37,10 @@ const STALLED: f64 = 0.8;
 /// round look worse.
 const PATIENCE: usize = 2;
 
+/// Factor from one accuracy to the next that is tried where meshes for the one before would not fit in memory. With twice this value, the
+/// accuracy may be six times worse than memory allows.
+const RELAXED: f64 = 3.0;
+
 /// Largest residual of an eigenpair; the relative error of its eigenvalue is about its square, 1e-10. Ten
 /// times more would allow errors of 1e-8.
 const RESIDUAL: f64 = 1e-5;
@@ -61,10 +66,8 @@ pub(super) fn solve(surface: &Surface, bounds: &Bounds) -> Result<Found, Physics
 fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), PhysicsError> {
     let fabric = Fabric::of(surface)?;
     let order = ORDERS[usize::from(fabric.bends())];
-    let plan = Plan::new(surface, &fabric, bounds)?;
+    let plan = affordable(surface, &fabric, bounds)?;
     let coarse = plan.coarser(COARSER);
-    // The finest first: what memory does not hold is refused before anything is solved.
-    guard(surface, bounds, &plan)?;
     let mesh = |number: usize| Observed::here().within(format!("mesh {number} of {} at most", 2 + ROUNDS));
     let mut levels = Vec::new();
     for plan in [&coarse.coarser(COARSER), &coarse] {
@@ -72,11 +75,11 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
     }
     let third = coarse.coarser(1.0 / rates::finer(&levels, bounds.accuracy));
     let mut plan = if guard(surface, bounds, &third).is_ok() { third } else { plan };
-    let (mut best, mut stalled) = (f64::INFINITY, 0);
+    let mut best = Best::up_to(bounds.most);
     for _ in 0..ROUNDS {
         let fine = match modes(surface, &fabric, bounds, &plan, &mesh(1 + levels.len())) {
-            // The first mesh fitted: what is out of reach is the accuracy.
-            Err(PhysicsError::TooLarge { .. }) if best.is_finite() => break,
+            // Meshes before were solved: what is out of reach is the accuracy.
+            Err(PhysicsError::TooLarge { .. } | PhysicsError::Solver { .. }) if best.is_any() => break,
             fine => fine?,
         };
         levels.push(fine.level());
@@ -84,15 +87,38 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
         if error <= bounds.accuracy {
             return Ok((fine, error));
         }
+        best.take(fine, error, STALLED);
         // The rest is rounding, or a corner that would need too many triangles.
-        stalled = if error > STALLED * best { stalled + 1 } else { 0 };
-        if stalled == PATIENCE {
+        if best.is_stalled(PATIENCE) {
             break;
         }
-        best = best.min(error);
         plan = plan.refined(error, bounds.accuracy);
     }
-    Err(PhysicsError::NotConverged { max_hz: bounds.max_hz, expected: bounds.accuracy, found: best })
+    let Bounds { max_hz, accuracy: expected, .. } = *bounds;
+    best.end().map_err(|found| PhysicsError::NotConverged { max_hz, expected, found })
+}
+
+/// The plan for the accuracy aimed at, or for the best one to be accepted that memory allows.
+///
+/// # Errors
+/// [`PhysicsError::TooLarge`] for the accuracy aimed at where there is none, so that nothing is solved in vain.
+fn affordable(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<Plan, PhysicsError> {
+    let with = |accuracy: f64| {
+        let plan = Plan::new(surface, fabric, &Bounds { accuracy, ..*bounds })?;
+        guard(surface, bounds, &plan).map(|()| plan)
+    };
+    let refused = match with(bounds.accuracy) {
+        Err(refused @ PhysicsError::TooLarge { .. }) => refused,
+        planned => return planned,
+    };
+    let mut accuracy = RELAXED * bounds.accuracy;
+    while accuracy <= bounds.most {
+        match with(accuracy) {
+            Err(PhysicsError::TooLarge { .. }) => accuracy *= RELAXED,
+            planned => return planned,
+        }
+    }
+    Err(refused)
 }
 
 /// Meshes a sheet as planned, assembles its matrices and solves for the modes below the top.

@@ -39,7 +39,8 @@ pub(super) fn membrane(
     let tension = bounds.medium.tension + bounds.medium.bending_stiffness * bounds.k_top.powi(2);
     (membrane.sheet.young, membrane.sheet.tension) = (0.0, tension);
     let medium = Medium { tension, bending_stiffness: 0.0, air_sides: 0.0, ..bounds.medium };
-    let as_membrane = Bounds { medium, accuracy: of_membrane(bounds.accuracy), ..*bounds };
+    let [accuracy, most] = [bounds.accuracy, bounds.most].map(of_membrane);
+    let as_membrane = Bounds { medium, accuracy, most, ..*bounds };
     Ok(Some((membrane, as_membrane)))
 }
 

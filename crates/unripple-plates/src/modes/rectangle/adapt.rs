@@ -6,6 +6,8 @@ use super::problem::Problem;
 use super::product::{Product, Symmetry};
 use super::ritz::{BlockModes, solve_block};
 use crate::PhysicsError;
+use crate::modes::best::Best;
+use crate::modes::bounds::Bounds;
 use crate::modes::memory::{GIB, MEMORY};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -37,10 +39,14 @@ pub(crate) struct Solution {
 pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
     let mut counts = first_counts(problem, problem.bounds.k_top);
     let mut before: Option<(f64, f64)> = None;
-    let (mut best, mut stalled) = (f64::INFINITY, 0);
+    let mut best = Best::up_to(problem.bounds.most);
     let observed = Observed::here();
     for round in 1..=ROUNDS {
-        guard(problem, counts)?;
+        match guard(problem, counts) {
+            // What is out of reach is the accuracy.
+            Err(PhysicsError::TooLarge { .. }) if best.is_any() => break,
+            guarded => guarded?,
+        }
         let [x, y] = counts;
         observed.part(|| format!("{x} x {y} functions, round {round} of {ROUNDS} at most"));
         let plate = plate(problem, counts);
@@ -50,22 +56,18 @@ pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
         if error <= problem.bounds.accuracy {
             return Ok(Solution { blocks, error, lines: plate.lines });
         }
-        // Once only rounding errors are left, more polynomials only cost memory.
-        stalled = if error.is_finite() && error > STALLED * best { stalled + 1 } else { 0 };
-        if stalled == PATIENCE {
-            break;
-        }
-        best = best.min(error);
         let step = step(problem.bounds.accuracy, counts, error, &mut before);
         for (axis, count) in counts.iter_mut().enumerate() {
             *count += if plate.lines[axis].exact() { 0 } else { step };
         }
+        best.take(Solution { blocks, error, lines: plate.lines }, error, STALLED);
+        // Once only rounding errors are left, more polynomials only cost memory.
+        if best.is_stalled(PATIENCE) {
+            break;
+        }
     }
-    Err(PhysicsError::NotConverged {
-        max_hz: problem.bounds.max_hz,
-        expected: problem.bounds.accuracy,
-        found: best,
-    })
+    let Bounds { max_hz, accuracy: expected, .. } = problem.bounds;
+    best.end().map(|(best, _)| best).map_err(|found| PhysicsError::NotConverged { max_hz, expected, found })
 }
 
 /// Number of polynomials to add, extrapolated by the power law of the error so far; an even number, so that both parities grow.
