@@ -39,7 +39,7 @@ fn round(name: String, edge: Edge, film: bool) -> Case {
     }
     let top_hz = if film { 3000.0 } else { 40e3 };
     let known = round_common::frequencies(sheet, RADIUS, edge, top_hz);
-    Case { name, surface, top_hz, known, all: true, finest: cases::FINEST }
+    Case { name, surface, top_hz, known, all: true, finest: cases::FINEST, told: cases::TOLD }
 }
 
 /// The true and the stated error, and the time in s, for each accuracy.

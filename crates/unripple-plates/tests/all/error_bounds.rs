@@ -1,6 +1,7 @@
 //! Truth: the error that is stated is at least the true one, and not far above it, or the modes are refused.
 
-use crate::truth_common::cases::{Case, all};
+use crate::truth_common::cases::{self, Case};
+use crate::truth_common::more;
 use rayon::prelude::*;
 use unripple_plates::{Modes, PhysicsError};
 
@@ -13,8 +14,8 @@ struct Held {
 /// The accuracies asked for.
 const ACCURACIES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
-/// Below this relative error, references and rounding limit what can be told.
-const TOLD: f64 = 1e-8;
+/// True errors below this multiple of the error of the reference are not told from it.
+const TOLD: f64 = 10.0;
 
 /// Solves a case; `None` where the accuracy is refused.
 fn held(case: &Case, accuracy: f64) -> Option<Held> {
@@ -32,27 +33,31 @@ fn held(case: &Case, accuracy: f64) -> Option<Held> {
     }
 }
 
-#[test]
-fn the_stated_error_is_a_bound() {
-    let rows: Vec<(String, Vec<Option<Held>>)> = all()
-        .par_iter()
-        .map(|case| {
-            let asked = ACCURACIES.iter().filter(|accuracy| **accuracy >= case.finest);
-            let held = asked.map(|accuracy| held(case, *accuracy)).collect();
-            (format!("{} ({} known)", case.name, case.known.len()), held)
-        })
-        .collect();
-    let mut ratios = Vec::new();
-    let mut faults = Vec::new();
-    println!("| sheet | asked 1e-2 | 1e-3 | 1e-4 | 1e-5 | 1e-6 |\n|---|---|---|---|---|---|");
-    for (name, held) in &rows {
-        let cells = held.iter().map(|held| match held {
-            Some(held) => format!(" {:.1e}, {:.1e} |", held.exact, held.stated),
-            None => " refused |".to_owned(),
-        });
-        println!("| {name} |{}", cells.collect::<String>());
+/// Solves all cases at all accuracies, prints a table, and fails where a stated error is below the true one or an accuracy is refused.
+/// Gives the ratios of stated and true errors, ascending.
+fn ratios(cases: &[Case]) -> Vec<f64> {
+    let of = |case: &Case| {
+        let asked = ACCURACIES.iter().filter(|accuracy| **accuracy >= case.finest);
+        asked.map(|accuracy| held(case, *accuracy)).collect()
+    };
+    let rows: Vec<Vec<Option<Held>>> = cases.par_iter().map(of).collect();
+    let (mut ratios, mut faults, mut refused) = (Vec::new(), Vec::new(), Vec::new());
+    println!(
+        "| sheet | known | asked 1e-2 | 1e-3 | 1e-4 | 1e-5 | 1e-6 |\n|---|---:|---:|---:|---:|---:|---:|"
+    );
+    for (case, held) in cases.iter().zip(&rows) {
+        let name = &case.name;
+        let cell = |i: usize| match held.get(i) {
+            Some(Some(held)) => format!(" {:.1e} / {:.1e} |", held.exact, held.stated),
+            Some(None) => " refused |".to_owned(),
+            None => "  |".to_owned(),
+        };
+        println!("| {name} | {} |{}", case.known.len(), (0..ACCURACIES.len()).map(cell).collect::<String>());
+        if held.iter().any(Option::is_none) {
+            refused.push(name);
+        }
         for held in held.iter().flatten() {
-            if held.exact > TOLD {
+            if held.exact > TOLD * case.told {
                 ratios.push(held.stated / held.exact);
             }
             if held.exact > held.stated {
@@ -61,16 +66,31 @@ fn the_stated_error_is_a_bound() {
         }
     }
     ratios.sort_by(f64::total_cmp);
-    let median = ratios[ratios.len() / 2];
+    let (count, at) = (ratios.len(), |share: f64| ratios[(share * (ratios.len() - 1) as f64) as usize]);
     println!(
-        "stated over true: least {:.2}, median {median:.1}, largest {:.0}, of {}",
-        ratios[0],
-        ratios[ratios.len() - 1],
-        ratios.len()
+        "stated over true: least {:.2}, median {:.1}, nine tenths up to {:.0}, largest {:.0}, of {count}",
+        at(0.0),
+        at(0.5),
+        at(0.9),
+        at(1.0)
     );
     assert!(faults.is_empty(), "{faults:#?}");
-    assert!(median < 30.0, "{median}");
-    let refused = rows.iter().filter(|(_, held)| held.iter().any(Option::is_none));
-    assert!(refused.clone().count() == 0, "{:?}", refused.map(|(name, _)| name).collect::<Vec<_>>());
+    assert!(refused.is_empty(), "{refused:?}");
+    ratios
+}
+
+#[test]
+fn the_stated_error_is_a_bound() {
+    let ratios = ratios(&cases::all());
+    assert!(ratios[ratios.len() / 2] < 30.0);
     assert!(ratios.len() > 90, "{}", ratios.len());
+}
+
+/// The long run: `UNRIPPLE_ALL_SHEETS=1` for all of them.
+#[test]
+fn the_stated_error_is_a_bound_on_more_sheets() {
+    let all = std::env::var_os("UNRIPPLE_ALL_SHEETS").is_some();
+    let ratios = ratios(&if all { more::all() } else { more::some() });
+    assert!(ratios[ratios.len() / 2] < 30.0);
+    assert!(ratios.len() > if all { 150 } else { 10 }, "{}", ratios.len());
 }

@@ -22,7 +22,12 @@ pub struct Case {
     pub all: bool,
     /// The finest accuracy that a test asks for: more would take minutes.
     pub finest: f64,
+    /// A bound of the relative error of the known frequencies.
+    pub told: f64,
 }
+
+/// The relative error of frequencies that are known in closed form or by sums of many terms.
+pub const TOLD: f64 = 1e-9;
 
 impl Case {
     /// The largest relative error of frequencies found, of those that are known; infinite where modes are missing or too many.
@@ -39,17 +44,17 @@ impl Case {
 }
 
 /// A case with all frequencies known, from those up to well beyond `near` (Hz): the top is put into the widest gap near it.
-fn whole(name: impl Into<String>, surface: Surface, mut known: Vec<f64>, near: f64) -> Case {
+pub fn whole(name: impl Into<String>, surface: Surface, mut known: Vec<f64>, near: f64) -> Case {
     known.sort_by(f64::total_cmp);
     let gaps = known.windows(2).filter(|w| w[0] > 0.8 * near && w[1] < 1.2 * near);
     let widest = gaps.max_by(|a, b| (a[1] / a[0]).total_cmp(&(b[1] / b[0])));
     let top_hz = widest.map_or(near, |w| 0.5 * (w[0] + w[1]));
     known.retain(|hz| *hz < top_hz);
-    Case { name: name.into(), surface, top_hz, known, all: true, finest: FINEST }
+    Case { name: name.into(), surface, top_hz, known, all: true, finest: FINEST, told: TOLD }
 }
 
 /// A plate's frequency (Hz) for a wavenumber: D = ρ_s = 1.
-fn hz(k: f64, tension: f64) -> f64 {
+pub fn hz(k: f64, tension: f64) -> f64 {
     k * (k * k + tension).sqrt() / TAU
 }
 
@@ -97,7 +102,7 @@ fn convex() -> Vec<Case> {
 
 /// Modes of a supported regular polygon that its mirrors leave as they are: the first two of a hexagon, by particular solutions, and
 /// those of polygons of many sides by the expansion around the circle.
-fn regular(name: &str, count: u32) -> Case {
+pub fn regular(name: &str, count: u32) -> Case {
     let area = 0.5 * f64::from(count) * (TAU / f64::from(count)).sin();
     let circle = (PI / area).sqrt();
     // Zeros of J_0 for the circle of that area, which has the lowest wavenumber (Faber and Krahn).
@@ -114,8 +119,13 @@ fn regular(name: &str, count: u32) -> Case {
     };
     let surface = sheets::sheet(sheets::regular(count, Edge::Supported), 1.0, 0.0, 0.3);
     let known: Vec<f64> = known.iter().map(|k| hz(*k, 0.0)).collect();
-    let finest = if count > 40 { 1e-4 } else { FINEST };
-    Case { name: name.into(), surface, top_hz: hz(5.7 * circle, 0.0), known, all: false, finest }
+    // With many corners finer ones would take minutes.
+    let finest = match count {
+        0..40 => FINEST,
+        40..60 => 1e-4,
+        _ => 1e-3,
+    };
+    Case { name: name.into(), surface, top_hz: hz(5.7 * circle, 0.0), known, all: false, finest, told: TOLD }
 }
 
 /// The eigenvalue of a regular membrane of many sides over that of the circle of the same area, for a mode without nodal diameters

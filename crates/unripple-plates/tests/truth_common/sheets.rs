@@ -46,11 +46,16 @@ pub fn regular(count: u32, edge: Edge) -> Outline {
     polygon(&(0..count).map(corner).collect::<Vec<_>>(), Edges::All(edge))
 }
 
-/// A sector of unit radius and some angle (rad, more than half a turn and up to three quarters): its straight edges and its arc.
+/// A sector of unit radius and some angle (rad, less than a whole turn): its straight edges and its arc.
 pub fn sector(angle: f64, straight: Edge, arc: Edge) -> Outline {
-    // The bounding box begins at -1 along x and y.
-    let centre = Point::new(1.0, 1.0);
-    let at = |a: f64| Point::new(1.0 + a.cos(), 1.0 + a.sin());
+    let on_arc = |a: f64| Point::new(a.cos(), a.sin());
+    let quarters = (1..4).map(|i| 0.25 * TAU * f64::from(i)).filter(|a| *a < angle);
+    let reached: Vec<Point> =
+        quarters.chain([0.0, angle]).map(on_arc).chain([Point::new(0.0, 0.0)]).collect();
+    let least = |of: fn(&Point) -> f64| reached.iter().map(of).fold(f64::INFINITY, f64::min);
+    // The bounding box begins at the origin.
+    let centre = Point::new(-least(|p| p.x), -least(|p| p.y));
+    let at = |a: f64| Point::new(centre.x + a.cos(), centre.y + a.sin());
     let sides = vec![
         Side::Line { from: centre, to: at(0.0) },
         Side::Arc { centre, radius: 1.0, start: 0.0, sweep: angle },
