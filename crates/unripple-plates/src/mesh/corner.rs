@@ -11,8 +11,8 @@ use unripple_core::{Edge, Outline};
 /// left. Halved, the strongest singularities get one or two more rings of triangles.
 const FLOOR: f64 = 1e-9;
 /// Relative error of the lowest eigenvalues by rounding where a bent sheet moves at a corner, for edges there as long as the sheet is
-/// wide: it rises as the inverse square of the edge length, since the stiffness of an element does, measured (edges of 2e-7 widths leave
-/// 2e-5 for each such corner). A tenth of it, and edges would be chosen for which rounding is all of the error.
+/// wide, measured (edges of 2e-7 widths leave 2e-5 for each such corner). A tenth of it, and edges would be chosen for which rounding is all
+/// of the error.
 const ROUNDED: f64 = 1e-18;
 /// Power up to which an element at a corner misses the share [`LOOSE`] of the singular energy it holds. See
 /// [`missed`].
@@ -52,12 +52,11 @@ pub(crate) struct Corner {
 }
 
 impl Corner {
-    /// The smallest edge there for which rounding changes no eigenvalue by more than the relative `accuracy`, as a share of the edge
-    /// length elsewhere (`size`, in metres), from 1e-9 to 1.
-    fn floor(&self, size: f64, bending: bool, accuracy: f64) -> f64 {
+    /// The relative error of the lowest eigenvalues by rounding, for edges there as long as those elsewhere (`size`, in metres). It rises
+    /// as the inverse square of the edge length.
+    fn rounding(&self, size: f64, bending: bool) -> f64 {
         let rounds = bending && self.edges.iter().all(|edge| edge.moves());
-        let edge = if rounds { self.width * (ROUNDED / accuracy).sqrt() } else { 0.0 };
-        (edge / size).clamp(FLOOR, 1.0)
+        if rounds { ROUNDED * (self.width / size).powi(2) } else { 0.0 }
     }
 }
 
@@ -79,14 +78,15 @@ pub(crate) fn corners(outline: &Outline) -> Result<Vec<Corner>, PhysicsError> {
 }
 
 /// The smallest edge at a corner, as a share of the edge length elsewhere (`size`, in metres), for which the error of the elements in
-/// the singular part of the solution changes no eigenvalue by more than the relative `accuracy`, or for which rounding does not; 1 if no
+/// the singular part of the solution changes no eigenvalue by more than the relative `accuracy`, or by as much as rounding does; 1 if no
 /// smaller edge is needed, at least 1e-9.
 ///
 /// If the solution is singular as r^ν, the energy that elements of size r miss is as (r/size)^(2p), p = ν - 1 with bending and ν
 /// without.
 pub(crate) fn smallest_edge(corner: &Corner, size: f64, bending: bool, accuracy: f64) -> f64 {
-    let floor = corner.floor(size, bending, accuracy);
-    Singularity::of(corner, size, bending, accuracy).map_or(1.0, |s| s.smallest_edge(accuracy).max(floor))
+    let rounding = corner.rounding(size, bending);
+    Singularity::of(corner, size, bending, accuracy)
+        .map_or(1.0, |s| s.smallest_edge(accuracy).max(s.floor(rounding)))
 }
 
 /// The number of corners where the singular part would change eigenvalues by more than the relative `accuracy` with edges of one
@@ -104,7 +104,8 @@ pub(crate) fn unresolved(corners: &[Corner], size: f64, bending: bool, accuracy:
         // A singular part that needs no smaller edge may still be one of many.
         let all = accuracy.min(FAINT);
         let Some(s) = Singularity::of(corner, size, bending, all) else { return 0.0 };
-        let floor = corner.floor(size, bending, accuracy);
+        let rounding = corner.rounding(size, bending);
+        let floor = s.floor(rounding);
         let share = s.smallest_edge(accuracy).max(floor);
         let hidden = share <= floor || (share >= 1.0 && s.power < SLOW);
         let missed = s.strength * missed(s.power);
@@ -112,16 +113,12 @@ pub(crate) fn unresolved(corners: &[Corner], size: f64, bending: bool, accuracy:
         let apart = (PI * s.power).sin().powi(2);
         let rings = if share < 1.0 { GRADED * apart * (growth / GROWTH).powi(8) } else { 0.0 };
         let core = share.powf(2.0 * s.power);
-        missed
-            * (rings
-                + core
-                    * if hidden {
-                        1.0
-                    } else if share < 1.0 {
-                        LEFT
-                    } else {
-                        0.0
-                    })
+        let left = match hidden {
+            true => 1.0,
+            false if share < 1.0 => LEFT,
+            false => 0.0,
+        };
+        missed * (rings + left * core) + if share < 1.0 { rounding / (share * share) } else { 0.0 }
     };
     corners.iter().map(of).sum()
 }
@@ -175,7 +172,13 @@ impl Singularity {
         power.is_finite().then_some(Self { power, strength })
     }
 
-    /// The smallest edge, see [`smallest_edge`].
+    /// The smallest edge of any use, as a share of the edge length elsewhere: where the error by `rounding` (for edges as long as
+    /// elsewhere) is as large as what elements there miss; at least [`FLOOR`].
+    fn floor(self, rounding: f64) -> f64 {
+        (rounding / (self.strength * missed(self.power))).powf(0.5 / (self.power + 1.0)).clamp(FLOOR, 1.0)
+    }
+
+    /// The smallest edge for an accuracy, see [`smallest_edge`].
     fn smallest_edge(self, accuracy: f64) -> f64 {
         (accuracy / (self.strength * missed(self.power))).powf(0.5 / self.power).clamp(FLOOR, 1.0)
     }

@@ -117,8 +117,8 @@ impl Modes {
         &self.bending_shares
     }
 
-    /// A bound of the relative error of any frequency, dimensionless; 0 where modes are exact. On a mesh it is about seven times the
-    /// true error, from 1.2 to 300 times on sheets that are known by another route.
+    /// A bound of the relative error of any frequency, dimensionless; 0 where modes are exact. On a mesh it is about nine times the
+    /// true error, from 1.5 to 200 times on sheets that are known by another route.
     pub fn error(&self) -> f64 {
         self.error
     }
