@@ -17,7 +17,7 @@ use crate::spectrum::{self, Pairs};
 use sizing::Plan;
 use solution::Solution;
 use unripple_core::plane::doubled;
-use unripple_core::{Observed, Surface};
+use unripple_core::{Edge, Observed, Surface};
 use unripple_linalg::{ColRef, Mat, sparse_times};
 
 /// Largest number of meshes solved after the first two, each finer than the one before by 1.25 to 1.6. More would only delay the failure
@@ -143,7 +143,7 @@ fn modes(
         let found = format!("residuals of up to {:e}", pairs.residual);
         return Err(PhysicsError::Solver { max_hz: bounds.max_hz, found });
     }
-    let pairs = settled(pairs, bounds);
+    let pairs = settled(pairs, surface, bounds);
     let bent = sparse_times(forms.bending.as_ref(), pairs.vectors.as_ref());
     let share = |m: usize| {
         let energy: f64 = bent.col(m).iter().zip(pairs.vectors.col(m).iter()).map(|(b, x)| b * x).sum();
@@ -166,12 +166,31 @@ fn mean_edge(mesh: &Mesh) -> f64 {
     (f64::exp(logs / sheet) / 0.1875_f64.sqrt()).sqrt()
 }
 
-/// Sets the eigenvalues of rigid-body modes, which are not 0 by rounding, to 0: frequencies below a thousandth of that
-/// expected of the first mode of a plate with as many modes.
-fn settled(mut pairs: Pairs, bounds: &Bounds) -> Pairs {
+/// Sets the eigenvalues of rigid-body modes, which are not 0 by rounding, to 0: of the lowest as many as the sheet has such motions, if their
+/// frequencies are below a tenth of that expected of the first mode of a plate with as many modes, and any below a thousandth of it.
+fn settled(mut pairs: Pairs, surface: &Surface, bounds: &Bounds) -> Pairs {
     let first = bounds.top_square() / (pairs.values.len().max(1) as f64).powi(2);
-    pairs.values.iter_mut().filter(|square| **square < 1e-6 * first).for_each(|square| *square = 0.0);
+    let rigid = rigid_motions(surface);
+    for (m, square) in pairs.values.iter_mut().enumerate() {
+        let most = if m < rigid { 1e-2 } else { 1e-6 };
+        if *square < most * first {
+            *square = 0.0;
+        }
+    }
     pairs
+}
+
+/// The number of motions of a sheet that store no energy: none if an edge holds it, else moving as a whole, and tilting along two directions
+/// unless tension or springs resist that.
+fn rigid_motions(surface: &Surface) -> usize {
+    let outline = &surface.outline;
+    let tilts = |edge: &Edge| matches!(edge, Edge::Elastic { tilt, .. } if *tilt > 0.0);
+    let tilted = outline.loops().iter().any(|rim| rim.sides.iter().any(|(_, edge)| tilts(edge)));
+    match (outline.holds(), surface.sheet.tension > 0.0 || tilted) {
+        (true, _) => 0,
+        (false, true) => 1,
+        (false, false) => 3,
+    }
 }
 
 /// The modes of a solution, with the air's mass and their sign.
