@@ -6,7 +6,7 @@ use super::strips::{self, Local};
 use super::{masses, ritz, sectors, sheets};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use unripple_core::*;
-use unripple_plates::Modes;
+use unripple_plates::{Accuracy, Modes};
 
 /// All of them.
 pub fn all() -> Vec<Case> {
@@ -381,7 +381,7 @@ fn extrapolated() -> Vec<Case> {
     };
     let of = |name: &str, outline: Outline, tension: f64, near: f64| {
         let surface = sheets::sheet(outline, 1.0, tension, 0.3);
-        let reference = Modes::solve(&surface, 1.2 * near, 1e-6).unwrap();
+        let reference = Modes::solve(&surface, 1.2 * near, Accuracy::or_best(1e-6)).unwrap();
         let known = reference.frequencies_hz().into_iter().filter(|hz| *hz > 0.0).collect();
         Case { finest: 1e-4, told: TOLD.max(reference.error()), ..whole(name, surface, known, near) }
     };
