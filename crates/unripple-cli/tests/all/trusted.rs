@@ -299,7 +299,7 @@ fn whoever_is_stopped_leaves_a_library_that_says_so() {
 
 #[test]
 fn a_library_of_bad_points_alone_is_no_success() {
-    let bench = Bench::new("takes-deaf-probe", 2, &[]);
+    let mut bench = Bench::new("takes-deaf-probe", 2, &[]);
     // The probe's cable is out: its input has nothing but noise.
     bench.bring_changed(2, |mut lines| {
         let quiet = |i: usize| 1e-7 * (((i * 2_654_435_761) >> 7) % 1000) as f64;

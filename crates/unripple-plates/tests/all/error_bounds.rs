@@ -60,7 +60,7 @@ fn ratios(cases: &[Case]) -> Vec<f64> {
             if held.exact > TOLD * case.told {
                 ratios.push(held.stated / held.exact);
             }
-            if held.exact > held.stated {
+            if held.exact > held.stated + case.told {
                 faults.push(format!("{name}: {:e} stated, {:e} true", held.stated, held.exact));
             }
         }
