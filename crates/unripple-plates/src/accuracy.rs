@@ -15,7 +15,7 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// An accuracy to aim at; where it is out of reach, the best that can be had, as long as frequencies are right to one part in a
+    /// An accuracy (a ratio) to aim at; where it is out of reach, the best that can be had, as long as frequencies are right to one part in a
     /// hundred.
     ///
     /// ```
@@ -27,14 +27,14 @@ impl Accuracy {
         Self { aim, most: USEFUL.max(aim) }
     }
 
-    /// The accuracy that was `asked` for, refused where it is out of reach; where none was, `default` or the best that can be had.
+    /// The accuracy (a ratio) that was `asked` for, refused where it is out of reach; where none was, `default` or the best that can be had.
     pub fn of(asked: Option<f64>, default: f64) -> Self {
         asked.map_or(Self::or_best(default), Self::from)
     }
 }
 
 impl From<f64> for Accuracy {
-    /// An accuracy that is refused where it is out of reach.
+    /// An accuracy (a ratio) that is refused where it is out of reach.
     fn from(accuracy: f64) -> Self {
         Self { aim: accuracy, most: accuracy }
     }

@@ -30,10 +30,10 @@ pub fn inexact(surface: &Surface, responses: &Responses) -> Option<Note> {
     (error > aim).then(|| Note { topic: "accuracy", text: less_accurate(error, aim) })
 }
 
-/// In words, that natural frequencies have a relative `error` larger than the one aimed at.
+/// In words, that natural frequencies have a larger `error` than the one aimed at, both ratios to the frequencies.
 pub fn less_accurate(error: f64, aim: f64) -> String {
     format!(
-        "natural frequencies are within {error:.1e} of themselves, not within {aim:e}, the default: finer meshes would not fit in memory, or \
+        "the relative error of natural frequencies is up to {error:.1e}, not within {aim:e}, the default: finer meshes would not fit in memory, or \
          rounding errors limit them (--accuracy asks for another accuracy, and refuses what does not reach it)"
     )
 }
