@@ -40,7 +40,10 @@ fn numbers_beyond_all_memory_are_refused_at_once() {
             "focus hudin-2012 --at 62,90 --method concentrate --window-ms 60000 -o @out",
             "samples of the window times modes: expected at most 268435456, found",
         ),
-        ("focus FILM --at 62,90 --judge-hz 1e100 -o @out", short),
+        (
+            "focus FILM --at 62,90 --judge-hz 1e100 -o @out",
+            "--judge-hz: expected at least 1000 Hz, the top of the band, and less than",
+        ),
         ("modes hudin-2012 --max-hz 1e100", short),
         ("respond FILM --grid-mm 30 --length-ms 1e300 -o @out", "--length-ms: expected at most 60 s, found"),
         (

@@ -142,7 +142,7 @@ fn a_frequency_that_samples_do_not_carry_is_refused() {
     for command in [
         vec!["focus", "hudin-2012", "--at", "62,90", "-o", &out],
         vec!["compare", "hudin-2012", "--at", "62,90", "-o", &out],
-        vec!["stroke", "hudin-2012", "--from", "40,40", "--to", "60,60", "-o", &out],
+        vec!["focus", "hudin-2012", "--waveform", "62,90,burst:100,3", "-o", &out],
     ] {
         for hz in ["24000", "1e5", "NaN"] {
             let told = refused(&[&command[..], &["--judge-hz", hz]].concat(), 2);

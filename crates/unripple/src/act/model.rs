@@ -33,8 +33,8 @@ pub fn inexact(surface: &Surface, responses: &Responses) -> Option<Note> {
 /// In words, that natural frequencies have a larger `error` than the one aimed at, both ratios to the frequencies.
 pub fn less_accurate(error: f64, aim: f64) -> String {
     format!(
-        "the relative error of natural frequencies is up to {error:.1e}, not within {aim:e}, the default: finer meshes would not fit in memory, or \
-         rounding errors limit them (--accuracy asks for another accuracy, and refuses what does not reach it)"
+        "the relative error of natural frequencies is up to {error:.1e}, not within {aim:e}, the default: no finer mesh that fits in memory \
+         and keeps its digits is better (--accuracy asks for another accuracy, and refuses what does not reach it)"
     )
 }
 
