@@ -361,7 +361,7 @@ fn extrapolated() -> Vec<Case> {
         [1.0, 1.0],
     ];
     let point = |i: u32| {
-        let (radius, angle) = (if i % 2 == 0 { 1.0 } else { 0.5 }, 0.2 * PI * f64::from(i));
+        let (radius, angle) = (if i.is_multiple_of(2) { 1.0 } else { 0.5 }, 0.2 * PI * f64::from(i));
         [radius * angle.cos(), radius * angle.sin()]
     };
     let star: Vec<[f64; 2]> = (0..10).map(point).collect();
