@@ -87,6 +87,14 @@ impl Cavity {
         Self::within(surface, [surface.emission.band[0], top_hz])
     }
 
+    /// The statistics of a surface in a band that ends at `top_hz` (Hz), from `first_hz` (Hz) on, the frequency of its first mode, if that is
+    /// in the band: nothing rings below it, where losses that fall with frequency would make statistics ring for ever.
+    pub(super) fn ringing(surface: &Surface, first_hz: f64, top_hz: f64) -> Self {
+        let low = surface.emission.band[0];
+        let first = low.max(first_hz);
+        Self::within(surface, [if first < top_hz { first } else { low }, top_hz])
+    }
+
     /// The statistics of a surface between two frequencies (Hz), as [`Cavity::of`].
     pub(super) fn within(surface: &Surface, [low_hz, top_hz]: [f64; 2]) -> Self {
         let medium = Medium::of(&surface.sheet);

@@ -149,7 +149,7 @@ impl Design {
             contrast_endless: contrast * chosen.largest / chosen.contrast,
             contrast_by_window: by_window(|n, window| ground.expected(n, window), window, &counts),
             actuator_counts: counts,
-            contrast_by_band: by_band(surface, ground.bottom_hz, [ground.scale, correction], n, window),
+            contrast_by_band: by_band(surface, ground.first_mode_hz, [ground.scale, correction], n, window),
             contrast_by_noise: by_noise(cavity, correction, n, window),
             contrast_by_rate: by_rate(cavity, correction, n, window),
             spot_diameter_m: closed::spot_diameter(lambda_min),

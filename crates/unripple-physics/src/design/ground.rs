@@ -19,8 +19,6 @@ pub(super) struct Ground<'a> {
     pub medium: Medium,
     /// Statistics of the band, its modes scaled to the exact count where there is one.
     pub cavity: Cavity,
-    /// Where the statistics begin: the bottom of the band or the first mode, in Hz.
-    pub bottom_hz: f64,
     /// Exact mode count over that of Weyl's law.
     pub scale: f64,
     /// Number of modes in the band, counted, or why they are not.
@@ -69,12 +67,7 @@ impl<'a> Ground<'a> {
         }
         let scale = counted.as_ref().map_or(1.0, |(count, _)| *count as f64 / by_law.modes());
         let modes = scale * by_law.modes();
-        // Nothing rings below the first mode, where losses that fall with frequency would make statistics ring for ever.
-        let bottom_hz = surface.emission.band[0].max(first_mode_hz).min(top);
-        let cavity = match bottom_hz < top {
-            true => Cavity::within(surface, [bottom_hz, top]).counted(modes),
-            false => by_law.counted(modes),
-        };
+        let cavity = Cavity::ringing(surface, first_mode_hz, top).counted(modes);
         let actuators = surface.actuators.len() as f64;
         let windows = windows();
         let window = windows.recommended();
@@ -90,7 +83,6 @@ impl<'a> Ground<'a> {
             window,
             windows,
             statistics_scale: 1.0,
-            bottom_hz,
             cavity,
         };
         let own = ground.by_statistics(&[actuators], ground.window.seconds)[0];

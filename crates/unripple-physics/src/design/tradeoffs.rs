@@ -91,11 +91,11 @@ pub(super) fn by_window(
     (-STEPS..=STEPS).map(window).map(row).collect()
 }
 
-/// Contrast for bands of other widths, below half the sample rate, with a window in s; statistics begin at `bottom_hz` (Hz). `scale` is
+/// Contrast for bands of other widths, below half the sample rate, with a window in s; `first_mode_hz` is that of its first mode (Hz). `scale` is
 /// the exact mode count over Weyl's, `correction` the contrast in the surface's own band over that of the statistics.
 pub(super) fn by_band(
     surface: &Surface,
-    bottom_hz: f64,
+    first_mode_hz: f64,
     [scale, correction]: [f64; 2],
     actuators: f64,
     window: f64,
@@ -106,8 +106,7 @@ pub(super) fn by_band(
     tops.filter(|hz| *hz < surface.emission.rate / 2.0)
         .map(|top_hz| {
             let counted = scale * Cavity::of(surface, top_hz).modes();
-            let bottom_hz = if bottom_hz < top_hz { bottom_hz } else { low };
-            let cavity = Cavity::within(surface, [bottom_hz, top_hz]).counted(counted);
+            let cavity = Cavity::ringing(surface, first_mode_hz, top_hz).counted(counted);
             let lambda_min_m = medium.lambda_min(top_hz);
             ByBand {
                 top_hz,

@@ -140,12 +140,10 @@ impl Windows {
     /// The contrast against window of a surface from statistics, without solving for its modes, which is much faster. `reason` says why,
     /// for people.
     pub fn by_law(surface: &Surface, reason: impl Into<String>) -> Self {
-        let mut ringing = surface.clone();
         let first = Medium::of(&surface.sheet).omega(Weyl::of(surface).first_wavenumber()) / TAU;
         let [low, top] = surface.emission.band;
         // Below the first mode there is no resonance, whatever Weyl's law gives.
-        ringing.emission.band[0] = low.max(first).min(top);
-        let cavity = Cavity::of(&ringing, top);
+        let cavity = Cavity::within(surface, [low.max(first).min(top), top]);
         let actuators = surface.actuators.len() as f64;
         Self::along(surface, Some(reason.into()), |window| {
             (cavity.contrast(actuators, window), [f64::NAN; 2])
