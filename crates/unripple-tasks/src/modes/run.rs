@@ -4,7 +4,7 @@ use super::{Ask, Loaded, Report};
 use crate::curves::flattened;
 use crate::numbers::above_zero;
 use crate::{Progress, TaskError, go_on};
-use unripple::act::{Note, less_accurate};
+use unripple::act::less_accurate;
 use unripple::physics::{Accuracy, Modes, loaded_modes};
 
 /// Relative accuracy where nothing else is asked for and it can be had: a phase error of 1e-3 rad at 3 kHz after 50 ms. Smaller, modes that
@@ -27,9 +27,6 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     go_on(progress)?;
     progress.stage("modes with the actuators on the sheet");
     let loaded = loaded_modes(&surface, top, accuracy).map_err(TaskError::input)?;
-    let error = modes.error();
-    let inexact =
-        (error > accuracy.aim).then(|| Note { topic: "accuracy", text: less_accurate(error, accuracy.aim) });
     Ok(Report {
         surface: surface.name.clone(),
         max_hz: top,
@@ -37,8 +34,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         frequencies_hz: frequencies.to_vec(),
         decay_times_s: decays.iter().map(|t| t.is_finite().then_some(*t)).collect(),
         bending_shares: modes.bending_shares().to_vec(),
-        relative_error: error,
+        relative_error: modes.error(),
         loaded: loaded.map(|modes| Loaded::of(&modes)),
-        notes: flattened(&surface).into_iter().chain(inexact).collect(),
+        notes: flattened(&surface).into_iter().chain(less_accurate(modes.error(), accuracy.aim)).collect(),
     })
 }

@@ -26,16 +26,18 @@ pub fn accuracy(surface: &Surface) -> Accuracy {
 /// A note that natural frequencies are less accurate than was aimed at, where that was out of reach.
 pub fn inexact(surface: &Surface, responses: &Responses) -> Option<Note> {
     let Responses::Modal(modal) = responses else { return None };
-    let (aim, error) = (accuracy(surface).aim, modal.frequency_error);
-    (error > aim).then(|| Note { topic: "accuracy", text: less_accurate(error, aim) })
+    less_accurate(modal.frequency_error, accuracy(surface).aim)
 }
 
-/// In words, that natural frequencies have a larger `error` than the one aimed at, both ratios to the frequencies.
-pub fn less_accurate(error: f64, aim: f64) -> String {
-    format!(
-        "the relative error of natural frequencies is up to {error:.1e}, not within {aim:e}, the default: no finer mesh that fits in memory \
-         and keeps its digits is better (--accuracy asks for another accuracy, and refuses what does not reach it)"
-    )
+/// A note that natural frequencies have a larger `error` than the one aimed at, both ratios to the frequencies; `None` if they have not.
+pub fn less_accurate(error: f64, aim: f64) -> Option<Note> {
+    let text = || {
+        format!(
+            "the relative error of natural frequencies is up to {error:.1e}, not within {aim:e}, the default: no finer mesh that fits in memory \
+             and keeps its digits is better (--accuracy asks for another accuracy, and refuses what does not reach it)"
+        )
+    };
+    (error > aim).then(|| Note { topic: "accuracy", text: text() })
 }
 
 /// The responses of a surface with fingers at `contacts`, on modes up to `max_hz` (Hz), or those of its band.
