@@ -157,8 +157,8 @@ impl Lane {
         }
     }
 
-    /// Waits, `at_most` so long (a duration, in s), until no task that was given up still runs, and says whether none does: before a process ends, so that
-    /// none is cut off while it makes a file or removes what it made.
+    /// Waits, `at_most` so long (a duration, in s), until no task that was given up still runs, and says whether none does: before a process
+    /// ends, so that none is cut off while it makes a file or removes what it made.
     ///
     /// ```
     /// use std::time::Duration;
