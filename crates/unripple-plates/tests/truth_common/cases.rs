@@ -172,41 +172,37 @@ fn singular() -> Vec<Case> {
     ]
 }
 
+/// A ring of a plate: D = ρ_s = 1.
+pub fn plate(radii: [f64; 2], tension: f64) -> Piece {
+    Piece { radii, bending: 1.0, poisson: 0.3, tension, mass: 1.0 }
+}
+
+/// A circle, or a ring of some inner radius, with the edge conditions inside and outside, up to about a wavenumber.
+pub fn ring(name: &str, inner: f64, edges: [Edge; 2], tension: f64, k_top: f64) -> Case {
+    let middle = 0.5 * (inner + 1.0);
+    let pieces = [plate([inner, middle], tension), plate([middle, 1.0], tension)];
+    let outline = if inner > 0.0 {
+        sheets::ring(inner, edges)
+    } else {
+        Outline::new(Shape::Circle { radius: 1.0 }).with_edges(Edges::All(edges[1]))
+    };
+    let surface = sheets::sheet(outline, 1.0, tension, 0.3);
+    let top = hz(k_top, tension);
+    whole(name, surface, radial::frequencies(&pieces, edges, 1.5 * top), top)
+}
+
 /// Circles and rings.
 fn round() -> Vec<Case> {
     use Edge::{Clamped, Free, Supported};
-    let piece = |inner: f64, outer: f64, tension: f64| Piece {
-        radii: [inner, outer],
-        bending: 1.0,
-        poisson: 0.3,
-        tension,
-        mass: 1.0,
-    };
-    let of = |name: &str, inner: f64, edges: [Edge; 2], tension: f64, k_top: f64| {
-        let middle = 0.5 * (inner + 1.0);
-        let pieces = [piece(inner, middle, tension), piece(middle, 1.0, tension)];
-        let outline = if inner > 0.0 {
-            sheets::ring(inner, edges)
-        } else {
-            Outline::new(Shape::Circle { radius: 1.0 }).with_edges(Edges::All(edges[1]))
-        };
-        let surface = sheets::sheet(outline, 1.0, tension, 0.3);
-        whole(
-            name,
-            surface,
-            radial::frequencies(&pieces, edges, 1.5 * hz(k_top, tension)),
-            hz(k_top, tension),
-        )
-    };
     vec![
-        of("clamped circle", 0.0, [Clamped; 2], 0.0, 11.0),
-        of("supported circle", 0.0, [Supported; 2], 0.0, 11.0),
-        of("free circle", 0.0, [Free; 2], 0.0, 10.0),
-        of("clamped circle under tension", 0.0, [Clamped; 2], 400.0, 11.0),
-        of("clamped ring under tension", 0.5, [Clamped; 2], 2000.0, 14.0),
-        of("clamped ring under little tension", 0.4, [Clamped; 2], 50.0, 14.0),
-        of("supported ring", 0.4, [Supported; 2], 0.0, 12.0),
-        of("ring free outside, clamped inside", 0.3, [Clamped, Free], 0.0, 9.0),
+        ring("clamped circle", 0.0, [Clamped; 2], 0.0, 11.0),
+        ring("supported circle", 0.0, [Supported; 2], 0.0, 11.0),
+        ring("free circle", 0.0, [Free; 2], 0.0, 10.0),
+        ring("clamped circle under tension", 0.0, [Clamped; 2], 400.0, 11.0),
+        ring("clamped ring under tension", 0.5, [Clamped; 2], 2000.0, 14.0),
+        ring("clamped ring under little tension", 0.4, [Clamped; 2], 50.0, 14.0),
+        ring("supported ring", 0.4, [Supported; 2], 0.0, 12.0),
+        ring("ring free outside, clamped inside", 0.3, [Clamped, Free], 0.0, 9.0),
     ]
 }
 
@@ -239,76 +235,79 @@ fn rectangles() -> Vec<Case> {
 /// Grain, a point mass, a glued disc.
 fn uneven() -> Vec<Case> {
     vec![
-        grained("supported rectangle, grain along a side", 0.0),
-        grained("clamped rectangle, grain turned", 0.5),
-        weighted(),
-        laminated(),
+        grained("supported rectangle, grain along a side", 0.0, [0.3, 0.2], 50.0),
+        grained("clamped rectangle, grain turned", 0.5, [0.3, 0.2], 50.0),
+        weighted("supported rectangle with a point mass", [0.37, 0.31], 0.3),
+        // Of one material, sheet and disc bend as one plate of three times the thickness.
+        disc("clamped circle with a glued disc", Edge::Clamped, 0.0, [0.35, 2.0, 1.0, 1.0], 20.0),
     ]
 }
 
-/// A rectangle with a grain at an angle (rad): supported if it is along a side, else clamped.
-fn grained(name: &str, angle: f64) -> Case {
-    let (across, shear, poisson) = (0.3, 0.2, 0.3);
+/// A rectangle with a grain at an angle (rad): supported if it is along a side, else clamped. `across` and `shear` are E2/E1 and G/E1.
+pub fn grained(name: &str, angle: f64, [across, shear]: [f64; 2], near: f64) -> Case {
+    let poisson = 0.3;
     let edge = if angle == 0.0 { Edge::Supported } else { Edge::Clamped };
     let outline = sheets::polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.7], [0.0, 0.7]], Edges::All(edge));
     let mut surface = sheets::sheet(outline, 1.0, 0.0, poisson);
     let young = surface.sheet.young;
-    surface.sheet.uneven.grain =
-        Some(Grain { direction: angle, young_across: across * young, shear: shear * young });
-    // E1 h³/12 = 1 - ν² here.
+    let uneven = &mut surface.sheet.uneven;
+    uneven.grain = Some(Grain { direction: angle, young_across: across * young, shear: shear * young });
     let bending = ritz::turned_grain(poisson, across, shear, angle).map(|d| (1.0 - poisson * poisson) * d);
-    let near = 50.0;
     let known = if angle == 0.0 {
         let [d11, d12, _, d22, _, d66] = bending;
-        let of = |m: i32, n: i32| {
-            let (x, y) = ((f64::from(m) * PI).powi(2), (f64::from(n) * PI / 0.7).powi(2));
+        let of = |(m, n): (f64, f64)| {
+            let (x, y) = ((m * PI).powi(2), (n * PI / 0.7).powi(2));
             (d11 * x * x + 2.0 * (d12 + 2.0 * d66) * x * y + d22 * y * y).sqrt() / TAU
         };
-        (1..20).flat_map(|m| (1..20).map(move |n| of(m, n))).collect()
+        let pairs = (1..30).flat_map(|m| (1..30).map(move |n| (f64::from(m), f64::from(n))));
+        pairs.map(of).collect()
     } else {
         ritz::clamped([1.0, 0.7], bending, 1.0, 1.3 * near)
     };
     whole(name, surface, known, near)
 }
 
-/// A supported rectangle with a mass of a third of its own at a point.
-fn weighted() -> Case {
-    let (sides, at, share) = ([1.0, 0.83], [0.37, 0.31], 0.3);
+/// A supported rectangle with a mass at a point, as a share of its own.
+pub fn weighted(name: &str, at: [f64; 2], share: f64) -> Case {
+    let sides = [1.0, 0.83];
     let corners = [[0.0, 0.0], [sides[0], 0.0], sides, [0.0, sides[1]]];
     let outline = sheets::polygon(&corners, Edges::All(Edge::Supported));
     let mut surface = sheets::sheet(outline, 1.0, 0.0, 0.3);
-    let mass = share * sides[0] * sides[1];
-    let kind = ScattererKind::Mass(mass);
+    let kind = ScattererKind::Mass(share * sides[0] * sides[1]);
     surface.sheet.uneven.scatterers = vec![Scatterer { at: Point::new(at[0], at[1]), kind }];
     let near = 60.0;
     let squares = masses::squares(sides, at, 1.0, share, (1.3 * TAU * near).powi(2));
-    whole(
-        "supported rectangle with a point mass",
-        surface,
-        squares.iter().map(|s| s.sqrt() / TAU).collect(),
-        near,
-    )
+    whole(name, surface, squares.iter().map(|s| s.sqrt() / TAU).collect(), near)
 }
 
-/// A clamped circle with a disc of its own material and twice its thickness glued to the middle.
-fn laminated() -> Case {
-    let outline = Outline::new(Shape::Circle { radius: 1.0 }).with_edges(Edges::All(Edge::Clamped));
-    let mut surface = sheets::sheet(outline, 1.0, 0.0, 0.3);
+/// A circle with a disc glued to the middle: its radius, and its thickness, Young's modulus and density over those of the sheet.
+pub fn disc(
+    name: &str,
+    edge: Edge,
+    tension: f64,
+    [radius, thick, stiff, heavy]: [f64; 4],
+    near: f64,
+) -> Case {
+    let outline = Outline::new(Shape::Circle { radius: 1.0 }).with_edges(Edges::All(edge));
+    let mut surface = sheets::sheet(outline, 1.0, tension, 0.3);
     let sheet = &surface.sheet;
-    let (radius, thickness) = (0.35, 2.0 * sheet.thickness);
-    let (young, density, poisson) = (sheet.young, sheet.density, sheet.poisson);
-    let kind = ScattererKind::Disc { radius, thickness, young, density, poisson };
-    surface.sheet.uneven.scatterers = vec![Scatterer { at: Point::new(1.0, 1.0), kind }];
-    // Of one material, sheet and disc bend as one plate of three times the thickness.
-    let piece = |inner: f64, outer: f64, times: f64| Piece {
-        radii: [inner, outer],
-        bending: times * times * times,
-        poisson,
-        tension: 0.0,
-        mass: times,
+    let kind = ScattererKind::Disc {
+        radius,
+        thickness: thick * sheet.thickness,
+        young: stiff * sheet.young,
+        density: heavy * sheet.density,
+        poisson: sheet.poisson,
     };
-    let pieces = [piece(0.0, radius, 3.0), piece(radius, 0.65, 1.0), piece(0.65, 1.0, 1.0)];
-    let near = 20.0;
-    let known = radial::frequencies(&pieces, [Edge::Clamped; 2], 1.3 * near);
-    whole("clamped circle with a glued disc", surface, known, near)
+    surface.sheet.uneven.scatterers = vec![Scatterer { at: Point::new(1.0, 1.0), kind }];
+    // Two layers of thickness 1 and `thick` bend about their common neutral plane; a layer alone has 1/12.
+    let neutral = (0.5 + stiff * thick * (1.0 + 0.5 * thick)) / (1.0 + stiff * thick);
+    let layer = |stiff: f64, thick: f64, middle: f64| {
+        stiff * (thick.powi(3) / 12.0 + thick * (middle - neutral).powi(2))
+    };
+    let bending = 12.0 * (layer(1.0, 1.0, 0.5) + layer(stiff, thick, 1.0 + 0.5 * thick));
+    let middle = 0.5 * (radius + 1.0);
+    let under = Piece { bending, mass: 1.0 + heavy * thick, ..plate([0.0, radius], tension) };
+    let pieces = [under, plate([radius, middle], tension), plate([middle, 1.0], tension)];
+    let known = radial::frequencies(&pieces, [edge; 2], 1.4 * near);
+    whole(name, surface, known, near)
 }

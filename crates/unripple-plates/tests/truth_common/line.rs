@@ -1,6 +1,7 @@
 //! Ritz problems along a line, in polynomials piece by piece whose value and slope are continuous.
 
 use super::pencil;
+use unripple_core::Edge;
 use unripple_linalg::Mat;
 use unripple_plates::gauss;
 
@@ -51,6 +52,23 @@ pub fn squares(
     let free: Vec<usize> = (0..size).filter(|i| !held.contains(i)).collect();
     let kept = |m: &Mat<f64>| Mat::from_fn(free.len(), free.len(), |i, j| m[(free[i], free[j])]);
     pencil(&kept(&stiffness), &kept(&mass), shift)
+}
+
+/// Unknowns that an edge condition holds at zero, of a value and a slope that follow each other from `first` on.
+pub fn held(edge: Edge, first: usize) -> Vec<usize> {
+    match edge {
+        Edge::Clamped => vec![first, first + 1],
+        Edge::Supported => vec![first],
+        _ => Vec::new(),
+    }
+}
+
+/// The springs of an edge of some length at these unknowns.
+pub fn springs(edge: Edge, first: usize, length: f64) -> Vec<(usize, f64)> {
+    match edge {
+        Edge::Elastic { lift, tilt } => vec![(first, length * lift), (first + 1, length * tilt)],
+        _ => Vec::new(),
+    }
 }
 
 /// Values and derivatives of all functions at x from -1 to 1; `half` is half the piece's length.

@@ -14,7 +14,6 @@ pub mod sectors;
 pub mod sheets;
 pub mod strips;
 
-use unripple_core::Edge;
 use unripple_linalg::{Cholesky, Mat, exact_symmetric, solve_lower_alone};
 
 /// The eigenvalues λ of K x = λ M x, ascending, from those of (K + shift M)⁻¹M, of which the largest keep all digits.
@@ -28,13 +27,4 @@ pub fn pencil(stiffness: &Mat<f64>, mass: &Mat<f64>, shift: f64) -> Vec<f64> {
     solve_lower_alone(factor.lower(), both.as_mut());
     let (values, _) = exact_symmetric(both.as_ref()).unwrap();
     values.iter().rev().map(|v| 1.0 / v - shift).collect()
-}
-
-/// Unknowns that an edge condition holds at zero, of a value and a slope that follow each other from `first` on.
-pub fn line_ends(edge: Edge, first: usize) -> Vec<usize> {
-    match edge {
-        Edge::Clamped => vec![first, first + 1],
-        Edge::Supported => vec![first],
-        _ => Vec::new(),
-    }
 }

@@ -1,9 +1,9 @@
 //! More sheets whose frequencies are known by another route, for long runs: with those of `cases`, sixty of twelve kinds.
 
-use super::cases::{Case, TOLD, hz, regular, whole};
+use super::cases::{Case, TOLD, disc, grained, hz, plate, regular, ring, weighted, whole};
 use super::radial::{self, Piece};
 use super::strips::{self, Local};
-use super::{masses, ritz, sectors, sheets};
+use super::{sectors, sheets};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use unripple_core::*;
 use unripple_plates::{Accuracy, Modes};
@@ -69,7 +69,7 @@ fn membranes() -> Vec<Case> {
         let outline = sheets::sector(angle, Edge::Clamped, Edge::Clamped);
         whole(name, fixed(outline), known.iter().map(|k| k / TAU).collect(), k_top / TAU)
     };
-    let ring = Piece { radii: [0.3, 1.0], bending: 0.0, poisson: 0.3, tension: 1.0, mass: 1.0 };
+    let annulus = Piece { radii: [0.3, 1.0], bending: 0.0, poisson: 0.3, tension: 1.0, mass: 1.0 };
     vec![
         whole(
             "membrane of an equilateral triangle",
@@ -83,7 +83,7 @@ fn membranes() -> Vec<Case> {
             "ring of membrane",
             fixed(sheets::ring(0.3, [Edge::Clamped; 2])),
             // Without bending an edge that is held has any slope.
-            radial::frequencies(&[ring], [Edge::Supported; 2], 3.5),
+            radial::frequencies(&[annulus], [Edge::Supported; 2], 3.5),
             2.4,
         ),
     ]
@@ -92,10 +92,8 @@ fn membranes() -> Vec<Case> {
 /// Sectors of plates with supported straight sides. If a whole number of them fills a half circle, their modes are those of the circle
 /// with a multiple of that number of nodal diameters.
 fn sharp() -> Vec<Case> {
-    let piece =
-        |from: f64, to: f64| Piece { radii: [from, to], bending: 1.0, poisson: 0.3, tension: 0.0, mass: 1.0 };
     let of = |name: &str, parts: u32, arc: Edge, near: f64| {
-        let pieces = [piece(0.0, 0.4), piece(0.4, 0.7), piece(0.7, 1.0)];
+        let pieces = [[0.0, 0.4], [0.4, 0.7], [0.7, 1.0]].map(|radii| plate(radii, 0.0));
         let known = (1..12).flat_map(|n| radial::of_diameters(&pieces, [arc; 2], n * parts, 1.3 * near));
         let outline = sheets::sector(PI / f64::from(parts), Edge::Supported, arc);
         whole(name, sheets::sheet(outline, 1.0, 0.0, 0.3), known.collect(), near)
@@ -125,36 +123,13 @@ fn sharp() -> Vec<Case> {
 /// Circles and rings of plates.
 fn round() -> Vec<Case> {
     use Edge::{Clamped, Free, Supported};
-    let of = |name: &str, inner: f64, edges: [Edge; 2], tension: f64, k_top: f64| {
-        let middle = 0.5 * (inner + 1.0);
-        let piece = |inner: f64, outer: f64| Piece {
-            radii: [inner, outer],
-            bending: 1.0,
-            poisson: 0.3,
-            tension,
-            mass: 1.0,
-        };
-        let pieces = [piece(inner, middle), piece(middle, 1.0)];
-        let outline = if inner > 0.0 {
-            sheets::ring(inner, edges)
-        } else {
-            Outline::new(Shape::Circle { radius: 1.0 }).with_edges(Edges::All(edges[1]))
-        };
-        let top = hz(k_top, tension);
-        whole(
-            name,
-            sheets::sheet(outline, 1.0, tension, 0.3),
-            radial::frequencies(&pieces, edges, 1.5 * top),
-            top,
-        )
-    };
     vec![
-        of("supported circle under much tension", 0.0, [Supported; 2], 5000.0, 11.0),
-        of("clamped circle with a small free hole", 0.1, [Free, Clamped], 0.0, 10.0),
-        of("supported circle with a free hole", 0.5, [Free, Supported], 0.0, 10.0),
-        of("free ring", 0.4, [Free; 2], 0.0, 9.0),
-        of("ring supported outside, clamped inside, under tension", 0.3, [Clamped, Supported], 300.0, 11.0),
-        of("narrow clamped ring", 0.8, [Clamped; 2], 0.0, 30.0),
+        ring("supported circle under much tension", 0.0, [Supported; 2], 5000.0, 11.0),
+        ring("clamped circle with a small free hole", 0.1, [Free, Clamped], 0.0, 10.0),
+        ring("supported circle with a free hole", 0.5, [Free, Supported], 0.0, 10.0),
+        ring("free ring", 0.4, [Free; 2], 0.0, 9.0),
+        ring("ring supported outside, clamped inside, under tension", 0.3, [Clamped, Supported], 300.0, 11.0),
+        ring("narrow clamped ring", 0.8, [Clamped; 2], 0.0, 30.0),
     ]
 }
 
@@ -227,14 +202,8 @@ fn held_by_springs() -> Vec<Case> {
     };
     let circle = |name: &str, lift: f64, tilt: f64| {
         let edge = Edge::Elastic { lift, tilt };
-        let piece = |inner: f64, outer: f64| Piece {
-            radii: [inner, outer],
-            bending: 1.0,
-            poisson: 0.3,
-            tension: 0.0,
-            mass: 1.0,
-        };
-        let known = radial::frequencies(&[piece(0.0, 0.5), piece(0.5, 1.0)], [edge; 2], 26.0);
+        let pieces = [[0.0, 0.5], [0.5, 1.0]].map(|radii| plate(radii, 0.0));
+        let known = radial::frequencies(&pieces, [edge; 2], 26.0);
         let outline = Outline::new(Shape::Circle { radius: 1.0 }).with_edges(Edges::All(edge));
         whole(name, sheets::sheet(outline, 1.0, 0.0, 0.3), known, 18.0)
     };
@@ -250,48 +219,14 @@ fn held_by_springs() -> Vec<Case> {
 /// Discs glued to the middle of circles.
 fn discs() -> Vec<Case> {
     use Edge::{Clamped, Free, Supported};
-    vec![
+    [
         disc("clamped circle with a thin stiff disc", Clamped, 0.0, [0.2, 0.5, 20.0, 5.0], 16.0),
         disc("supported circle with a thick soft disc", Supported, 0.0, [0.4, 3.0, 0.05, 0.5], 16.0),
         disc("free circle with a heavy disc", Free, 0.0, [0.3, 1.0, 1.0, 6.0], 14.0),
         disc("clamped circle under tension with a small disc", Clamped, 300.0, [0.08, 1.0, 3.0, 3.0], 22.0),
     ]
-}
-
-/// A circle with a disc glued to the middle: its radius, and its thickness, Young's modulus and density over those of the sheet.
-fn disc(name: &str, edge: Edge, tension: f64, [radius, thick, stiff, heavy]: [f64; 4], near: f64) -> Case {
-    let outline = Outline::new(Shape::Circle { radius: 1.0 }).with_edges(Edges::All(edge));
-    let mut surface = sheets::sheet(outline, 1.0, tension, 0.3);
-    let sheet = &surface.sheet;
-    let kind = ScattererKind::Disc {
-        radius,
-        thickness: thick * sheet.thickness,
-        young: stiff * sheet.young,
-        density: heavy * sheet.density,
-        poisson: sheet.poisson,
-    };
-    surface.sheet.uneven.scatterers = vec![Scatterer { at: Point::new(1.0, 1.0), kind }];
-    // Two layers of thickness 1 and `thick` bend about their common neutral plane; a layer alone has 1/12.
-    let neutral = (0.5 + stiff * thick * (1.0 + 0.5 * thick)) / (1.0 + stiff * thick);
-    let layer = |stiff: f64, thick: f64, middle: f64| {
-        stiff * (thick.powi(3) / 12.0 + thick * (middle - neutral).powi(2))
-    };
-    let bending = 12.0 * (layer(1.0, 1.0, 0.5) + layer(stiff, thick, 1.0 + 0.5 * thick));
-    let piece = |from: f64, to: f64, bending: f64, mass: f64| Piece {
-        radii: [from, to],
-        bending,
-        poisson: 0.3,
-        tension,
-        mass,
-    };
-    let middle = 0.5 * (radius + 1.0);
-    let pieces = [
-        piece(0.0, radius, bending, 1.0 + heavy * thick),
-        piece(radius, middle, 1.0, 1.0),
-        piece(middle, 1.0, 1.0, 1.0),
-    ];
-    let known = radial::frequencies(&pieces, [edge; 2], 1.4 * near);
-    up_to(1e-5, whole(name, surface, known, near))
+    .map(|case| up_to(1e-5, case))
+    .into()
 }
 
 /// Point masses and grain.
@@ -299,47 +234,10 @@ fn uneven() -> Vec<Case> {
     vec![
         weighted("supported rectangle with a small point mass", [0.23, 0.61], 0.02),
         weighted("supported rectangle with a point mass as heavy as itself", [0.52, 0.37], 1.0),
-        grained("supported rectangle, strong grain along a side", 0.0, [0.05, 0.08]),
-        grained("clamped rectangle, grain turned by 60 degrees", PI / 3.0, [0.2, 0.15]),
-        grained("clamped rectangle, grain across", FRAC_PI_2, [0.4, 0.3]),
+        grained("supported rectangle, strong grain along a side", 0.0, [0.05, 0.08], 30.0),
+        grained("clamped rectangle, grain turned by 60 degrees", PI / 3.0, [0.2, 0.15], 45.0),
+        grained("clamped rectangle, grain across", FRAC_PI_2, [0.4, 0.3], 45.0),
     ]
-}
-
-/// A supported rectangle with a mass at a point, as a share of its own.
-fn weighted(name: &str, at: [f64; 2], share: f64) -> Case {
-    let sides = [1.0, 0.83];
-    let corners = [[0.0, 0.0], [sides[0], 0.0], sides, [0.0, sides[1]]];
-    let outline = sheets::polygon(&corners, Edges::All(Edge::Supported));
-    let mut surface = sheets::sheet(outline, 1.0, 0.0, 0.3);
-    let kind = ScattererKind::Mass(share * sides[0] * sides[1]);
-    surface.sheet.uneven.scatterers = vec![Scatterer { at: Point::new(at[0], at[1]), kind }];
-    let near = 60.0;
-    let squares = masses::squares(sides, at, 1.0, share, (1.3 * TAU * near).powi(2));
-    whole(name, surface, squares.iter().map(|s| s.sqrt() / TAU).collect(), near)
-}
-
-/// A rectangle with a grain at an angle (rad): supported if it is along a side, else clamped. `across` and `shear` are E2/E1 and G/E1.
-fn grained(name: &str, angle: f64, [across, shear]: [f64; 2]) -> Case {
-    let poisson = 0.3;
-    let edge = if angle == 0.0 { Edge::Supported } else { Edge::Clamped };
-    let outline = sheets::polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.7], [0.0, 0.7]], Edges::All(edge));
-    let mut surface = sheets::sheet(outline, 1.0, 0.0, poisson);
-    let young = surface.sheet.young;
-    let uneven = &mut surface.sheet.uneven;
-    uneven.grain = Some(Grain { direction: angle, young_across: across * young, shear: shear * young });
-    let bending = ritz::turned_grain(poisson, across, shear, angle).map(|d| (1.0 - poisson * poisson) * d);
-    let near = if angle == 0.0 { 30.0 } else { 45.0 };
-    let known = if angle == 0.0 {
-        let [d11, d12, _, d22, _, d66] = bending;
-        let of = |(m, n): (f64, f64)| {
-            let (x, y) = ((m * PI).powi(2), (n * PI / 0.7).powi(2));
-            (d11 * x * x + 2.0 * (d12 + 2.0 * d66) * x * y + d22 * y * y).sqrt() / TAU
-        };
-        pairs().map(of).collect()
-    } else {
-        ritz::clamped([1.0, 0.7], bending, 1.0, 1.3 * near)
-    };
-    whole(name, surface, known, near)
 }
 
 /// Outlines for which nobody has a formula, against the same elements on far finer meshes.

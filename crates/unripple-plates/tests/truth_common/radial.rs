@@ -49,25 +49,16 @@ fn squares(pieces: &[Piece], edges: [Edge; 2], n: u32, shift: f64) -> Vec<f64> {
         [r * energy(&pieces[e], n, r, u, v), r * pieces[e].mass * u[0] * v[0]]
     };
     let last = 2 * pieces.len();
-    let mut springs = springs(edges[1], last, ends[pieces.len()]);
-    if ends[0] > 0.0 {
-        springs.extend(self::springs(edges[0], 0, ends[0]));
-    }
+    // For each radian; none at a radius of 0.
+    let springs =
+        [line::springs(edges[0], 0, ends[0]), line::springs(edges[1], last, ends[pieces.len()])].concat();
     line::squares(&ends, density, &springs, &held(pieces, edges, n), shift)
-}
-
-/// The springs of an elastic edge at some radius whose value is unknown `first`.
-fn springs(edge: Edge, first: usize, radius: f64) -> Vec<(usize, f64)> {
-    match edge {
-        Edge::Elastic { lift, tilt } => vec![(first, radius * lift), (first + 1, radius * tilt)],
-        _ => Vec::new(),
-    }
 }
 
 /// Unknowns that are zero, by the edge conditions and at the centre.
 fn held(pieces: &[Piece], edges: [Edge; 2], n: u32) -> Vec<usize> {
     let inner = if pieces[0].radii[0] > 0.0 {
-        super::line_ends(edges[0], 0)
+        line::held(edges[0], 0)
     } else {
         // As r^n, with even powers more.
         match n {
@@ -76,7 +67,7 @@ fn held(pieces: &[Piece], edges: [Edge; 2], n: u32) -> Vec<usize> {
             _ => vec![0, 1],
         }
     };
-    [inner, super::line_ends(edges[1], 2 * pieces.len())].concat()
+    [inner, line::held(edges[1], 2 * pieces.len())].concat()
 }
 
 /// The density of twice the elastic energy of two deflections times cos nθ, over a quarter turn's mean.

@@ -29,16 +29,9 @@ pub fn frequencies(
 ) -> Vec<f64> {
     let top = (TAU * max_hz).powi(2);
     let ends: Vec<f64> = (0..=PIECES).map(|i| sides[0] * i as f64 / PIECES as f64).collect();
-    let last = 2 * PIECES;
-    let springs: Vec<(usize, f64)> = [(edges[0], 0), (edges[1], last)]
-        .into_iter()
-        .filter_map(|(edge, first)| match edge {
-            Edge::Elastic { lift, tilt } => Some([(first, lift), (first + 1, tilt)]),
-            _ => None,
-        })
-        .flatten()
-        .collect();
-    let held = [super::line_ends(edges[0], 0), super::line_ends(edges[1], last)].concat();
+    let ends_of = [(edges[0], 0), (edges[1], 2 * PIECES)];
+    let springs = ends_of.map(|(edge, first)| line::springs(edge, first, 1.0)).concat();
+    let held = ends_of.map(|(edge, first)| line::held(edge, first)).concat();
     let mut found = Vec::new();
     for n in 1.. {
         let q = (f64::from(n) * PI / sides[1]).powi(2);
