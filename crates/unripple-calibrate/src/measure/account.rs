@@ -11,6 +11,17 @@ pub struct Lost {
     pub sweeps: [usize; 2],
 }
 
+impl Lost {
+    /// How many samples are missing or surplus, and where, in words.
+    pub(super) fn said(&self) -> String {
+        let (count, what) = (self.samples.abs(), if self.samples > 0 { "lost" } else { "recorded twice" });
+        let ([from, to], [before, after]) = (self.between_s, self.sweeps);
+        format!(
+            "{count} samples were {what} between {from:.3} and {to:.3} s, between sweeps {before} and {after}"
+        )
+    }
+}
+
 /// A knock: a sound in a recording that was not played.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Knocked {
@@ -97,15 +108,7 @@ impl Account {
             let ppm = ppm.abs();
             said.push(format!("the recording's clock runs {ppm:.1} millionths {side}: resampled"));
         }
-        for lost in &self.lost {
-            let (count, what) =
-                (lost.samples.abs(), if lost.samples > 0 { "lost" } else { "recorded twice" });
-            let ([from, to], [before, after]) = (lost.between_s, lost.sweeps);
-            said.push(format!(
-                "{count} samples were {what} between {from:.3} and {to:.3} s, between sweeps {before} and {after}: what comes \
-                 after was moved back"
-            ));
-        }
+        said.extend(self.lost.iter().map(|lost| format!("{}: what comes after was moved back", lost.said())));
         if let Some(late) = self.late.filter(|late| late.abs() >= SAME_TIME) {
             let side = if late > 0.0 { "later" } else { "earlier" };
             let late = late.abs();

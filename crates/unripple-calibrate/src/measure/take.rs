@@ -251,11 +251,10 @@ impl Judge<'_> {
             sweeps: [before + 1, after + 1],
         };
         let Some(known) = self.known.filter(|_| verdict.mend.lost.is_none()) else {
-            let account = Account { lost: vec![said(between)], ..Account::default() };
             return Err(CalibrateError::Recording {
                 what: "recording".into(),
                 expected: "all samples that were played".into(),
-                found: account.said().join("; "),
+                found: said(between).said(),
             });
         };
         let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();

@@ -4,8 +4,9 @@ use super::apart::{Apart, Pairs};
 use super::law::Law;
 use crate::signals::{Band, Delay};
 
-/// Largest deviation of a sweep from its expected time that is searched, either way, in s.
-const REACH: f64 = 0.1;
+/// Largest deviation of a sweep from its expected time that is searched, either way, in s: a buffer of 4096 samples at 44.1 kHz, and
+/// some more.
+const REACH: f64 = 0.12;
 
 /// Correlation below which a sweep is not recognised.
 const LEAST: f64 = 0.7;
@@ -76,10 +77,19 @@ impl Telling<'_> {
             for j in i + 1..count {
                 let [a, b] = [self.sensors[i], self.sensors[j]];
                 let [from_a, from_b] = [a, b].map(|actuator| self.starts[actuator] as i64);
-                let known = around(&self.wholes[i], from_b, length);
-                if let Some(apart) = self.compared(&[(&known, j)], from_a, self.lead, still) {
-                    pairs.push((i, j, apart));
-                }
+                let beside = |known: usize, at: i64, other: usize, near: i64| {
+                    let known = around(&self.wholes[known], at, length);
+                    self.compared(&[(&known, other)], near, self.lead, still)
+                };
+                // What comes at another time by more than the length of a response is only found by the other.
+                let apart = beside(i, from_b, j, from_a).or_else(|| {
+                    beside(j, from_a, i, from_b).map(|apart| Apart {
+                        late: -apart.late,
+                        change: -apart.change,
+                        ..apart
+                    })
+                });
+                pairs.extend(apart.map(|apart| (i, j, apart)));
             }
         }
         let found =
