@@ -147,7 +147,7 @@ fn tension_is_followed_where_one_of_eight_is_dead() {
 #[test]
 fn lost_samples_are_put_back_or_named() {
     let bench = film();
-    for (count, at) in [(480_i64, 70_000), (64, 40_000), (-300, 90_000)] {
+    for (count, at) in [(480_i64, 70_000), (4800, 70_000), (64, 40_000), (-300, 90_000)] {
         let faults = Faults { lost: Some((count, at)), noise_db: Some(50.0), ..Faults::default() };
         let (_, found, session) = bench.measured(&quiet(), &Faults::default(), &faults).unwrap();
         let off = bench.off(&found, &session);
@@ -299,7 +299,7 @@ fn each_cause_has_its_own_name() {
 #[test]
 fn a_knock_is_a_knock_and_a_repeat_stands_in_for_it() {
     let bench = film();
-    let knocked = Faults { knock: Some([1.2, 60.0]), noise_db: Some(50.0), ..Faults::default() };
+    let knocked = Faults { knock: Some([1.2, 60.0, 0.0]), noise_db: Some(50.0), ..Faults::default() };
     let (_, found, session) = bench.measured(&quiet(), &Faults::default(), &knocked).unwrap();
     let fault = session.fault(&found).unwrap_or_default();
     println!("{:?}: {fault}", found.account.knocks);
@@ -315,6 +315,22 @@ fn a_knock_is_a_knock_and_a_repeat_stands_in_for_it() {
     let off = bench.off(&found, &session);
     println!("with a repeat: off by {:.2} %", 100.0 * off);
     assert!(off < 0.02);
+}
+
+/// A finger's tap has little in the upper half of the band, where the sweeps still ring.
+#[test]
+fn a_soft_knock_is_a_knock_however_strong() {
+    let bench = film();
+    for strength in [10.0, 100.0] {
+        let soft = Faults { knock: Some([1.2, strength, 2e-3]), noise_db: Some(60.0), ..Faults::default() };
+        let (_, found, session) = bench.measured(&quiet(), &Faults::default(), &soft).unwrap();
+        let fault = session.fault(&found).unwrap_or_default();
+        println!("{strength}: {:?}: {fault}", found.account.knocks);
+        assert!(
+            fault.starts_with("a knock at 1.1") && found.account.knocks.len() == 1,
+            "{strength}: {fault}"
+        );
+    }
 }
 
 #[test]

@@ -44,8 +44,8 @@ pub struct Faults {
     pub noise_db: Option<f64>,
     /// Share of the second and the third harmonic in the drive.
     pub harmonics: [f64; 2],
-    /// A knock on the film: its time in s, and its strength relative to one sample of full drive.
-    pub knock: Option<[f64; 2]>,
+    /// A knock on the film, half a period of a sine: its time in s, its largest force relative to full drive, and its duration in s.
+    pub knock: Option<[f64; 3]>,
     /// Delay of the probe alone, in samples.
     pub probe_late: f64,
     /// Bits per sample of the file.
@@ -164,7 +164,11 @@ impl Bench {
         let samples = drive[0].len();
         let places = self.surface.actuators.iter().map(|actuator| actuator.at).chain([AT]);
         let shapes: Vec<Vec<f64>> = places.map(|at| self.shape(at)).collect();
-        let knock = faults.knock.map(|[at, strength]| ((at * RATE) as usize, strength));
+        let [at, strength, seconds] = faults.knock.unwrap_or_default();
+        let knock = |i: usize| {
+            let part = (i as f64 + 0.5 - (at * RATE).floor()) / (seconds * RATE).max(1.0);
+            if (0.0..1.0).contains(&part) { strength * (PI * part).sin() / RATE } else { 0.0 }
+        };
         let elsewhere = self.shape(Point::from_mm(88.0, 51.0));
         let distort = |x: f64| {
             let x = faults.clip.map_or(x, |most| x.clamp(-most, most));
@@ -188,9 +192,7 @@ impl Bench {
                 .collect();
             for (m, ((re, im), (cos, sin))) in states.iter_mut().zip(&turns).enumerate() {
                 *re += kicks.iter().zip(&shapes).map(|(kick, shape)| kick * shape[m]).sum::<f64>();
-                if let Some((_, strength)) = knock.filter(|(at, _)| *at == i) {
-                    *re += strength * elsewhere[m] / RATE;
-                }
+                *re += knock(i) * elsewhere[m];
                 (*re, *im) = {
                     for (line, shape) in heard.iter_mut().zip(&shapes) {
                         line[i] += shape[m] * *re;
@@ -255,8 +257,10 @@ impl Bench {
             }
             line.into_iter().map(|x| x as f32).collect()
         };
+        let played = heard[0].len();
         let mut lines: Vec<Vec<f32>> = heard.into_iter().enumerate().map(one).collect();
-        let longest = lines.iter().map(Vec::len).max().unwrap_or(0) + 4 * BLOCK;
+        // The recorder goes on after what is played, however many samples it lost.
+        let longest = lines.iter().map(Vec::len).fold(played, usize::max) + 4 * BLOCK;
         lines.iter_mut().for_each(|line| line.resize(longest, 0.0));
         lines
     }
