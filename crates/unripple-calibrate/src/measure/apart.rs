@@ -4,6 +4,7 @@ use super::law::Law;
 use crate::signals::{Band, Moves, Remap};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
 /// Largest relative change of tension that is searched: twice what is promised, and more than the warmth of a hand makes.
 const MOST_CHANGE: f64 = 0.016;
@@ -12,8 +13,18 @@ const MOST_CHANGE: f64 = 0.016;
 /// the correlation may be missed, half as much takes twice as long.
 const TURN: f64 = 1.0;
 
+/// Steps on either side of an expected change that are tried first, and the correlation with which the best of them is taken: no other
+/// change comes as near then. With fewer steps a slow drift from sweep to sweep is lost.
+const NEAR: i64 = 5;
+const ALIKE: f64 = 0.95;
+
 /// Largest delay that is searched, either way, in samples: whole ones are removed beforehand.
 const MOST_DELAY: f64 = 2.5;
+
+/// Accuracy of a delay, in samples, and that with which changes are compared before the best is refined: at the top of the band, which is
+/// below half the rate, a sixteenth of a sample turns the phase by a fifth of a radian.
+const FINEST: f64 = 1e-5;
+const COARSE: f64 = 1.0 / 16.0;
 
 /// Lines whose phases are turned side by side: two registers of AVX2 for each part. With twice this value nothing is gained.
 const BESIDE: usize = 8;
@@ -29,6 +40,25 @@ pub(super) struct Apart {
     pub likeness: f64,
     /// Standard errors of `late` and of `change`, from what the two leave unexplained.
     pub errors: [f64; 2],
+}
+
+/// The change of tension (or stiffness) that is searched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Change {
+    /// None.
+    None,
+    /// Any, first near this relative change, which is that of a sweep shortly before.
+    Near(f64),
+}
+
+impl Change {
+    /// The change that is searched after one was found, if any was.
+    pub fn after(self, found: Option<Apart>) -> Self {
+        match (self, found) {
+            (Self::Near(_), Some(apart)) => Self::Near(apart.change),
+            (change, _) => change,
+        }
+    }
 }
 
 /// Pairs of a known and a found response, as spectra to be compared.
@@ -74,33 +104,48 @@ impl<'a> Pairs<'a> {
         (!made.known.is_empty()).then_some(made)
     }
 
-    /// The delay and the change of tension with which the pairs agree best; with `still` no change is searched.
-    pub fn apart(&self, still: bool) -> Apart {
+    /// The delay and the change of tension with which the pairs agree best; with [`Change::None`] no change is searched.
+    pub fn apart(&self, change: Change) -> Apart {
         let top = TAU * self.band[1] * self.samples as f64 / self.rate;
         let step = (2.0 * TURN / top).min(MOST_CHANGE / 4.0);
-        let count = if still { 0 } else { (MOST_CHANGE / step).ceil() as i64 };
-        let tried = (-count..=count).map(|i| {
-            let change = step * i as f64;
-            (change, self.at(change)[1])
-        });
-        let (mut best, mut most) =
-            tried.fold((0.0, f64::NEG_INFINITY), |best, (x, y)| if y > best.1 { (x, y) } else { best });
+        let count = (MOST_CHANGE / step).ceil() as i64;
+        let (mut best, mut most) = match change {
+            Change::None => (0.0, 0.0),
+            Change::Near(near) => {
+                let middle = ((near / step).round() as i64).clamp(-count, count);
+                let [from, to] = [middle - NEAR, middle + NEAR].map(|i| i.clamp(-count, count));
+                let found = self.best(step, from..=to);
+                let within = |(change, likeness): &(f64, f64)| {
+                    let at = (change / step).round() as i64;
+                    *likeness >= ALIKE && (at > from || from == -count) && (at < to || to == count)
+                };
+                Some(found).filter(within).unwrap_or_else(|| self.best(step, -count..=count))
+            }
+        };
+        most = most.max(self.at(best, FINEST)[1]);
         let mut reach = step;
-        while !still && reach > 1e-8 {
+        while change != Change::None && reach > 1e-8 {
             reach /= 2.0;
             for change in [best - reach, best + reach] {
-                let likeness = self.at(change)[1];
+                let likeness = self.at(change, FINEST)[1];
                 if likeness > most {
                     (best, most) = (change, likeness);
                 }
             }
         }
-        let [late, likeness] = self.at(best);
+        let [late, likeness] = self.at(best, FINEST);
         Apart { late, change: best, likeness, errors: self.errors(best, late, likeness, step) }
     }
 
-    /// The delay (samples) at which the pairs agree best with a given change, and their correlation there.
-    fn at(&self, change: f64) -> [f64; 2] {
+    /// The change with which the pairs agree best, of so many steps, and their correlation then.
+    fn best(&self, step: f64, steps: RangeInclusive<i64>) -> (f64, f64) {
+        let tried = steps.map(|i| (step * i as f64, self.at(step * i as f64, COARSE)[1]));
+        tried.fold((0.0, f64::NEG_INFINITY), |best, one| if one.1 > best.1 { one } else { best })
+    }
+
+    /// The delay (samples) at which the pairs agree best with a given change, to an accuracy of `finest` samples, and their correlation
+    /// there.
+    fn at(&self, change: f64, finest: f64) -> [f64; 2] {
         let cross = self.cross(change);
         let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
         let mut reach = 0.5;
@@ -112,7 +157,7 @@ impl<'a> Pairs<'a> {
                 (best, most) = (late, likeness);
             }
         }
-        while reach > 1e-5 {
+        while reach > finest {
             reach /= 2.0;
             for late in [best - reach, best + reach] {
                 let likeness = self.read(&cross, late);
@@ -195,7 +240,7 @@ impl<'a> Pairs<'a> {
             (left / (likeness.max(0.1) * curvature * freedom)).sqrt()
         };
         let (near, cross) = (0.25 * step, self.cross(change));
-        let sides = [change - near, change + near].map(|change| self.at(change)[1]);
+        let sides = [change - near, change + near].map(|change| self.at(change, FINEST)[1]);
         let around = [late - 0.5, late + 0.5].map(|late| self.read(&cross, late));
         let fall = |sides: [f64; 2]| likeness - 0.5 * (sides[0] + sides[1]);
         [error(fall(around), 0.5), error(fall(sides), near)]
@@ -252,7 +297,7 @@ mod tests {
             let known: Vec<Vec<f64>> = (1..4).map(|seed| ringing(seed, &law, 0.0)).collect();
             let found: Vec<Vec<f64>> = (1..4).map(|seed| shift(&ringing(seed, &law, change), late)).collect();
             let pairs: Vec<_> = known.iter().zip(&found).map(|(a, b)| (&a[..], &b[..])).collect();
-            let apart = Pairs::of(&pairs, 0, rate, band, &law).unwrap().apart(false);
+            let apart = Pairs::of(&pairs, 0, rate, band, &law).unwrap().apart(Change::Near(0.0));
             assert!((apart.late - late).abs() < 0.02, "{late} {change}: {apart:?}");
             assert!((apart.change - change).abs() < 2e-5, "{late} {change}: {apart:?}");
             assert!(apart.likeness > 0.995, "{late} {change}: {apart:?}");

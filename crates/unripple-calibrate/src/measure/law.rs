@@ -31,6 +31,9 @@ impl Law {
     }
 
     fn ratio(&self, hz: f64, change: f64) -> f64 {
+        if !self.tension {
+            return (1.0 + change).max(0.25).sqrt();
+        }
         let place = (hz / self.step).clamp(0.0, (POINTS - 1) as f64);
         let left = place as usize;
         let part = place - left as f64;
@@ -48,6 +51,10 @@ impl Law {
     /// The frequency (Hz) that moves to `hz` under a relative change of tension or stiffness, and its derivative by
     /// `hz`. To first order in the change of the share of bending.
     pub fn unchanged(&self, hz: f64, change: f64) -> [f64; 2] {
+        if !self.tension {
+            let ratio = self.ratio(hz, change);
+            return [hz / ratio, 1.0 / ratio];
+        }
         self.sloped(hz, |hz| hz / self.ratio(hz / self.ratio(hz, change), change))
     }
 

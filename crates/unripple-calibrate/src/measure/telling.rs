@@ -1,6 +1,6 @@
 //! Delay and change of tension of each sweep of a take, from sensors' signals compared with another take or with each other.
 
-use super::apart::{Apart, Pairs};
+use super::apart::{Apart, Change, Pairs};
 use super::law::Law;
 use crate::signals::{Band, Delay};
 
@@ -59,10 +59,13 @@ impl Telling<'_> {
     /// How each sweep differs from the responses of the same sensors in another take, `known[sensor][actuator][sample]` from time 0:
     /// in delay and, unless `still`, in tension. `None` for a sweep that is not recognised.
     pub fn beside(&self, known: &[Vec<Vec<f64>>], still: bool) -> Vec<Option<Apart>> {
+        let mut change = if still { Change::None } else { Change::Near(0.0) };
         let one = |(sweep, start): (usize, &usize)| {
             let pairs: Vec<(&[f64], usize)> =
                 known.iter().enumerate().filter_map(|(s, k)| Some((k.get(sweep)?.as_slice(), s))).collect();
-            self.compared(&pairs, (*start + self.lead) as i64, 0, still)
+            let found = self.compared(&pairs, (*start + self.lead) as i64, 0, change);
+            change = change.after(found);
+            found
         };
         self.starts.iter().enumerate().map(one).collect()
     }
@@ -72,6 +75,7 @@ impl Telling<'_> {
     /// common to all sweeps cannot be found.
     pub fn beside_each_other(&self, length: usize, still: bool) -> Vec<Option<Apart>> {
         let count = self.sensors.len();
+        let mut change = if still { Change::None } else { Change::Near(0.0) };
         let mut pairs: Vec<(usize, usize, Apart)> = Vec::new();
         for i in 0..count {
             for j in i + 1..count {
@@ -79,7 +83,7 @@ impl Telling<'_> {
                 let [from_a, from_b] = [a, b].map(|actuator| self.starts[actuator] as i64);
                 let beside = |known: usize, at: i64, other: usize, near: i64| {
                     let known = around(&self.wholes[known], at, length);
-                    self.compared(&[(&known, other)], near, self.lead, still)
+                    self.compared(&[(&known, other)], near, self.lead, change)
                 };
                 // What comes at another time by more than the length of a response is only found by the other.
                 let apart = beside(i, from_b, j, from_a).or_else(|| {
@@ -89,6 +93,7 @@ impl Telling<'_> {
                         ..apart
                     })
                 });
+                change = change.after(apart);
                 pairs.extend(apart.map(|apart| (i, j, apart)));
             }
         }
@@ -121,14 +126,14 @@ impl Telling<'_> {
             if *power < HEARD * most {
                 return None;
             }
-            self.compared(&[(&cuts[loudest], 0)], *start as i64, self.lead, true)
+            self.compared(&[(&cuts[loudest], 0)], *start as i64, self.lead, Change::None)
         };
         self.starts.iter().zip(&powers).map(one).collect()
     }
 
     /// Difference of known responses and those found around sample `at`, both with time 0 after `origin` samples; `None` if the
     /// correlation is too low.
-    fn compared(&self, known: &[(&[f64], usize)], at: i64, origin: usize, still: bool) -> Option<Apart> {
+    fn compared(&self, known: &[(&[f64], usize)], at: i64, origin: usize, change: Change) -> Option<Apart> {
         let mut whole = self.coarse(known, at)?;
         let mut best = None::<Apart>;
         for _ in 0..STEPS {
@@ -137,7 +142,7 @@ impl Telling<'_> {
             let found: Vec<Vec<f64>> = known.iter().map(cut).collect();
             let pairs: Vec<(&[f64], &[f64])> =
                 known.iter().zip(&found).map(|((k, _), f)| (*k, &f[..])).collect();
-            let apart = agreed(Pairs::of(&pairs, origin, self.rate, self.band, self.law)?, still);
+            let apart = agreed(Pairs::of(&pairs, origin, self.rate, self.band, self.law)?, change);
             best = Some(Apart { late: apart.late + whole as f64, ..apart });
             // A change of tension shifts the coarse delay: whole samples are removed until none is left.
             if apart.late.abs() < 1.0 {
@@ -167,13 +172,13 @@ impl Telling<'_> {
 
 /// The common difference of pairs; if they do not agree, that of the majority, without pairs that do not fit, as those of a dead
 /// sensor.
-fn agreed(pairs: Pairs<'_>, still: bool) -> Apart {
-    let apart = pairs.apart(still);
+fn agreed(pairs: Pairs<'_>, change: Change) -> Apart {
+    let apart = pairs.apart(change);
     if apart.likeness >= LEAST {
         return apart;
     }
     let strange = pairs.strange(&apart, LEAST);
-    pairs.without(&strange).map_or(apart, |others| others.apart(still))
+    pairs.without(&strange).map_or(apart, |others| others.apart(change))
 }
 
 /// Values of `count` items and their errors, from differences of pairs (the first item's value less the second's), each with its
