@@ -121,7 +121,7 @@ impl Baseband {
         let end = ((length as f64 / rate - passed) / spacing).max(0.0) as usize;
         let plan = RealFftPlanner::<f64>::new().plan_fft_forward(size);
         let turns: Vec<c64> =
-            (0..lines).map(|k| c64::new(0.0, TAU * k as f64 / lines as f64).exp()).collect();
+            (0..lines).map(|k| c64::new(0.0, TAU * k as f64 / lines as f64).exp() / lines as f64).collect();
         let weights: Vec<f64> =
             (0..lines).map(|k| part.weight((first + k) as f64 * rate / size as f64)).collect();
         let narrow = |signal: &Vec<f64>| -> Vec<c64> {
@@ -129,18 +129,17 @@ impl Baseband {
             time[..length].copy_from_slice(&signal[..length]);
             // Sizes come from the plan itself.
             let _ = plan.process(&mut time, &mut spectrum);
-            let band: Vec<c64> = weights.iter().zip(&spectrum[first..]).map(|(w, x)| x * *w).collect();
-            let at = |i: usize| -> c64 {
-                band.iter().enumerate().map(|(k, x)| x * turns[k * i % lines]).sum::<c64>() / lines as f64
-            };
-            (begin..end.max(begin)).map(at).collect()
+            weights.iter().zip(&spectrum[first..]).map(|(w, x)| x * *w).collect()
         };
-        let all: Vec<Vec<Vec<c64>>> =
-            responses.iter().map(|drives| drives.iter().map(narrow).collect()).collect();
-        let count = responses.len();
+        let (count, kept) = (responses.len(), end.saturating_sub(begin));
+        let bands: Vec<Vec<c64>> = responses.iter().flatten().map(narrow).collect();
+        // All inverse transforms at once, of only the instants that count.
+        let spectra = Mat::from_fn(bands.len(), lines, |of, k| bands[of][k]);
+        let back = Mat::from_fn(lines, kept, |k, i| turns[k * (begin + i) % lines]);
+        let all = product(spectra.as_ref(), back.as_ref());
         let instants =
-            (0..end.saturating_sub(begin)).map(|i| Mat::from_fn(count, count, |b, a| all[b][a][i])).collect();
-        let times = (begin..end.max(begin)).map(|i| i as f64 * spacing - zero / rate).collect();
+            (0..kept).map(|i| Mat::from_fn(count, count, |b, a| all[(b * count + a, i)])).collect();
+        let times = (begin..begin + kept).map(|i| i as f64 * spacing - zero / rate).collect();
         Self { instants, times, base: first as f64 * rate / size as f64 }
     }
 }
