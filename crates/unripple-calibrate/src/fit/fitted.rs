@@ -20,7 +20,8 @@ const DOUBTED: f64 = 0.1;
 /// distribution one in 16 000 lies farther.
 const FAR: f64 = 4.0;
 
-/// Largest accepted negative mass, in standard deviations of its prior: noise turns a mass of 0 into values down to this.
+/// Largest accepted negative mass, in standard deviations of its prior: noise turns a mass of 0 into values down to this. [`FAR`] standard
+/// errors are accepted as well, where they are more: they grow with what the model leaves unexplained.
 const NEGATIVE: f64 = 0.2;
 
 /// A value and its standard error.
@@ -146,7 +147,8 @@ impl Answers<'_> {
                 return false;
             }
             let (value, spread) = (*values.of(*u), self.case.layout.spread(*u));
-            let negative = matches!(u, Unknown::Mass(_)) && value < -NEGATIVE * spread;
+            let negative =
+                matches!(u, Unknown::Mass(_)) && value < -(NEGATIVE * spread).max(FAR * self.of(*u).error);
             negative || (value - *thought.of(*u)).abs() > FAR * spread
         };
         let mut all = self.case.layout.unknowns();

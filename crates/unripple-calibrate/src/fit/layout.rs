@@ -1,6 +1,8 @@
 //! The vector of unknowns, its order and its priors.
 
+use std::f64::consts::TAU;
 use unripple_core::Point;
+use unripple_physics::Medium;
 
 /// Frequencies of the damping law's knots, as shares of the band's top. An octave apart: decay times vary slowly, and
 /// the lowest modes are too few to determine more.
@@ -8,7 +10,7 @@ pub(super) const KNOTS: [f64; 5] = [0.0625, 0.125, 0.25, 0.5, 1.0];
 
 /// Standard deviations of the priors around the nominal values. In order: logarithm of tension, logarithm of bending stiffness,
 /// anisotropy as a share, each term of the profile with one half wave as a share, logarithm of decay rates, place of an actuator
-/// (m), logarithm of gains, mass (kg), damping (N·s/m), place of a stray mass (m), logarithm of the gain common to all sensors,
+/// (m), logarithm of gains, mass (kg), least damping (N·s/m), place of a stray mass (m), logarithm of the gain common to all sensors,
 /// latency (s). Twice as much leaves an unknown freer by that, half as much holds it nearer to the surface file.
 const TENSION: f64 = 0.1;
 const BENDING: f64 = 0.1;
@@ -23,6 +25,17 @@ const STRAY: f64 = 10e-3;
 const LEVEL: f64 = 0.2;
 const LATE: f64 = 2e-5;
 
+/// Damping that may be expected, as a share of the sheet's own impedance at a point: what is fixed to a stiff plate is sturdier than what
+/// a film bears.
+const DAMPED: f64 = 0.01;
+
+/// The prior of a damping on a sheet, one standard deviation, in N·s/m, from the impedance of a point of the unbounded sheet at the top
+/// of the band, `4 ρ_s c_g/k` (of a plate `8 √(ρ_s D)`: L. Cremer, M. Heckl, B. A. T. Petersson, *Structure-Borne Sound*).
+pub(super) fn damping(medium: &Medium, top: f64) -> f64 {
+    let k = medium.wavenumber(TAU * top);
+    (DAMPED * 4.0 * medium.areal_density * medium.group_celerity(k) / k).max(RESISTANCE)
+}
+
 /// The unknowns of a fit, and the place of each in their vector.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
@@ -32,6 +45,8 @@ pub(super) struct Layout {
     pub waves: Vec<[u32; 2]>,
     /// Number of stray masses.
     pub strays: usize,
+    /// The prior of every damping, one standard deviation, in N·s/m.
+    pub damping: f64,
 }
 
 /// One unknown of the fit, by its kind and its number.
@@ -120,7 +135,7 @@ impl Layout {
                 }
             }
             Unknown::Mass(_) => MASS,
-            Unknown::Resistance(_) => RESISTANCE,
+            Unknown::Resistance(_) => self.damping,
             Unknown::Drive(_) | Unknown::Sense(_) => GAIN,
             Unknown::Level => LEVEL,
             Unknown::Late => LATE,

@@ -2,7 +2,7 @@
 
 use super::basis::Basis;
 use super::fitted::Fitted;
-use super::layout::{KNOTS, Layout, Values};
+use super::layout::{self, KNOTS, Layout, Values};
 use super::limited::Limited;
 use super::measured::Measured;
 use super::residual::Case;
@@ -105,7 +105,12 @@ pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Resu
     let basis = Basis::new(nominal, options.reach * top, options.profile)?;
     let first =
         basis.squares.iter().find(|square| **square > 0.0).map_or(band[1], |square| square.sqrt() / TAU);
-    let layout = Layout { actuators: nominal.actuators.len(), waves: basis.waves.clone(), strays: 0 };
+    let layout = Layout {
+        actuators: nominal.actuators.len(),
+        waves: basis.waves.clone(),
+        strays: 0,
+        damping: layout::damping(&Medium::of(&nominal.sheet), top),
+    };
     let expected = nominal_values(nominal, &basis, &layout, top);
     let values = expected.clone();
     let mut fit = Fit { nominal, measured, options, basis: &basis, layout, values, expected, top };
