@@ -2,7 +2,7 @@
 
 use crate::host::SessionHost;
 use crate::notices::Notice;
-use crate::wire::{Command, LONGEST};
+use crate::wire::{Command, LONGEST, Phase};
 use axum::extract::ws::{Message, Utf8Bytes, WebSocket};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -27,8 +27,10 @@ const STUCK: Duration = Duration::from_secs(20);
 const ASKED: Duration = Duration::from_secs(5);
 const UNANSWERED: u32 = 4;
 
-/// Largest number of messages per second, of refusals before the link is closed, and of refusals that may wait to be sent.
+/// Largest number of messages per second; of fingers' moves and lifts among more, of which the former are dropped: ten times as many,
+/// as no hands make; of refusals before the link is closed, and of refusals that may wait to be sent.
 const FASTEST: u32 = 600;
+const MOST: u32 = 10 * FASTEST;
 const BORNE: u32 = 50;
 const WAITING: usize = 32;
 
@@ -144,15 +146,24 @@ impl Link {
             self.second = (Instant::now(), 0);
         }
         self.second.1 += 1;
-        if self.second.1 > FASTEST {
-            return self.refuse(&format!("messages: expected at most {FASTEST} a second, found more"));
+        if self.second.1 > MOST {
+            return self.refuse_haste();
         }
         match Command::read(&text) {
             Ok(Command::Seen { frame }) => self.seen = self.seen.max(frame.min(self.shown)),
-            Ok(command) => self.host.obey(self.page, command),
+            Ok(command) if self.second.1 <= FASTEST => self.host.obey(self.page, command),
+            // A finger whose lift is lost would stay.
+            Ok(lift @ Command::Touch { phase: Phase::Up, .. }) => self.host.obey(self.page, lift),
+            // Another move follows, or a lift, which says where it was.
+            Ok(Command::Touch { phase: Phase::Move, .. }) => {}
+            Ok(_) => return self.refuse_haste(),
             Err(error) => return self.refuse(&error.to_string()),
         }
         true
+    }
+
+    fn refuse_haste(&mut self) -> bool {
+        self.refuse(&format!("messages: expected at most {FASTEST} a second, found more"))
     }
 
     /// Says why something is refused; `false` if that was so once too often.

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Served, status, until};
+use serde_json::json;
 use std::time::{Duration, Instant};
 use tungstenite::Message;
 use unripple::core::Random;
@@ -144,4 +145,32 @@ fn fingers_of_a_page_that_goes_are_lifted() {
     wait(1);
     drop(goes);
     wait(0);
+}
+
+/// Six fingers on a screen of 120 Hz make more messages than are taken in: of moves the surplus is dropped, a lift never is.
+#[test]
+fn a_finger_is_lifted_however_fast_its_page_talks() {
+    let served = Served::new(None);
+    let (mut stays, mut hasty) = (served.page(), served.page());
+    let touch = |phase: &str, x: f64| {
+        let command = json!({ "do": "touch", "finger": 3, "phase": phase, "at_mm": [x, 50] });
+        Message::text(command.to_string())
+    };
+    let mut wait = |count: usize| {
+        let began = Instant::now();
+        while until(&mut stays, "status")["fingers"].as_array().unwrap().len() != count {
+            assert!(began.elapsed() < Duration::from_secs(20));
+        }
+    };
+    hasty.send(touch("down", 40.0)).unwrap();
+    wait(1);
+    for i in 0..2000 {
+        hasty.send(touch("move", 40.0 + f64::from(i % 30))).unwrap();
+    }
+    hasty.send(touch("up", 60.0)).unwrap();
+    wait(0);
+    // The page is still served.
+    std::thread::sleep(Duration::from_secs(1));
+    hasty.send(touch("down", 40.0)).unwrap();
+    wait(1);
 }
