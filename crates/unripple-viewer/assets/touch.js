@@ -106,6 +106,8 @@ export class Touch {
       this.#setProbing(false);
       return;
     }
+    // A finger of the keys is where the cursor is: it goes with it.
+    this.#keyUp();
     this.stage.cursor = null;
     const pointer = { finger: this.#freeFinger(), mm, down: false };
     this.#pointers.set(event.pointerId, pointer);

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { apart } from './field.mjs';
-import { last, open, shoot, told, unharmed, until } from './page.mjs';
+import { last, open, pixel, shoot, told, unharmed, until } from './page.mjs';
 import { serve } from './program.mjs';
 
 /** Presses Tab until the element of this name has the focus. */
@@ -34,6 +34,18 @@ test('keys alone', async (t) => {
     await page.keyboard.down('Space');
     await told(page, 'status', ({ fingers }) => fingers.length === 1);
     await page.keyboard.up('Space');
+    await told(page, 'status', ({ fingers }) => fingers.length === 0);
+    unharmed(page);
+  });
+
+  await t.test('a finger of the keys is lifted where the mouse presses', async () => {
+    await page.focus('#map-0');
+    await page.keyboard.press('Enter');
+    await told(page, 'status', ({ fingers }) => fingers.length === 1);
+    await page.mouse.move(...(await pixel(page, [40, 60])));
+    await page.mouse.down();
+    await told(page, 'status', ({ fingers }) => fingers.length === 1 && apart(fingers[0].at_mm, [40, 60]) < 1);
+    await page.mouse.up();
     await told(page, 'status', ({ fingers }) => fingers.length === 0);
     unharmed(page);
   });
