@@ -10,6 +10,8 @@ import { Sheet } from './sheet.js';
 import { fieldValue, fixed, seconds } from './units.js';
 
 const CALM_MS = 500;
+// A wait that is noticed.
+const NOTICED_MS = 100;
 const GROUNDS = { dark: '#151a21', light: '#ffffff' };
 
 /** Everything that is shown of the field. Serves as `app.map` and as the scene of its panes. */
@@ -30,6 +32,7 @@ export class Stage {
   #font = 16;
   #calmUntil = 0;
   #calmTimer = null;
+  #built = 0;
   #strongest = 0;
   #still = matchMedia('(prefers-reduced-motion: reduce)');
   #faulty = new WeakSet();
@@ -59,6 +62,7 @@ export class Stage {
     state.subscribe('status', ({ fingers }) => {
       this.levels = new Map((fingers ?? []).map((f) => [f.id, f.level_db]));
     });
+    state.subscribe('building', ({ on }) => this.#building(on));
     state.subscribe('compare', () => this.#label());
     state.subscribe('theme', ({ name }) => this.#setTheme(name));
     this.show(state.ui.view === 'relief' ? 'relief' : 'map');
@@ -196,6 +200,14 @@ export class Stage {
         `Surface ${message.name}, ${fixed(width, 0)} by ${fixed(height, 0)} mm. Press to send waves to a place.`);
     }
     this.redraw();
+  }
+
+  /** Says that what is drawn does not play yet, if that takes longer than is noticed. */
+  #building(on) {
+    clearTimeout(this.#built);
+    const say = (shown) => { document.getElementById('building').hidden = !shown; };
+    if (on) this.#built = setTimeout(say, NOTICED_MS, true);
+    else say(false);
   }
 
   #setTheme(name) {

@@ -10,6 +10,7 @@ use crate::outbox::{Out, Outbox};
 use crate::simulation::{Instrument, Order, Simulation, Spec};
 use crate::stop::Stop;
 use crate::wire::Command;
+use serde_json::json;
 use std::sync::Arc;
 use unripple::core::Point;
 use unripple_tasks::{Lane, TaskError};
@@ -164,6 +165,7 @@ impl Session {
     pub fn errand(&mut self) -> Option<Errand> {
         self.renew();
         if let Some((spec, stop)) = self.editor.wanted() {
+            self.tell_building(true);
             return Some(Errand::Build(spec, stop));
         }
         self.tasks.next().map(|(task, stop)| Errand::Compute(task, stop))
@@ -171,6 +173,9 @@ impl Session {
 
     /// Takes in the result of an errand.
     pub fn done(&mut self, done: Done) {
+        if let Done::Built(_) = done {
+            self.tell_building(false);
+        }
         match done {
             Done::Built(Ok(instrument)) => {
                 self.editor.built(&instrument.spec, &mut self.out);
@@ -190,6 +195,11 @@ impl Session {
     /// Takes out the messages and pictures for pages, the oldest first.
     pub fn take(&mut self) -> Vec<Out> {
         self.out.take()
+    }
+
+    /// Tells pages whether an instrument is being built, so that what is drawn is not what is played yet.
+    fn tell_building(&mut self, on: bool) {
+        self.out.tell("building", &json!({ "is": "building", "on": on }));
     }
 
     fn order(&mut self, order: Order) {

@@ -52,6 +52,9 @@ fn what_is_edited_while_something_is_built_is_built_next_and_once() {
     let thicker = |mm: f64| format!(r#"{{"do":"edit","thickness_mm":{mm}}}"#);
     hear(&mut session, 1, &thicker(0.2));
     let Some(Errand::Build(first, _)) = session.errand() else { panic!("nothing to build") };
+    let building =
+        |out: &[Out]| told(out, "building").iter().map(|told| told["on"] == true).collect::<Vec<_>>();
+    assert_eq!(building(&session.take()), [true]);
     for mm in [0.21, 0.22, 0.23] {
         hear(&mut session, 1, &thicker(mm));
         assert!(session.errand().is_none(), "two are built at once");
@@ -62,9 +65,10 @@ fn what_is_edited_while_something_is_built_is_built_next_and_once() {
     session.done(build(last));
     assert!(session.errand().is_none());
     let out = session.take();
+    assert_eq!(building(&out), [false, true, false]);
     let surfaces = told(&out, "surface");
     assert_eq!(surfaces.last().unwrap()["values"]["thickness_mm"], 0.23);
-    assert_eq!(told(&out, "settings").len(), 2);
+    assert_eq!(told(&out, "settings").len(), 2, "one for each that is played");
     // Of the figures that were asked for, only the newest surface's are left to do.
     session.done(Done::Computed);
     let edit = surfaces.last().unwrap()["edit"].as_u64().unwrap();
