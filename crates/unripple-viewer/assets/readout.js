@@ -5,6 +5,9 @@ import { clear, el, setText } from './dom.js';
 import { decibels, fixed, newtons, number, place } from './units.js';
 import { speedText } from './transport.js';
 
+// Share of the wanted speed from which it counts as kept: speeds are told in hundredths, over a second.
+const KEPT = 0.9;
+
 /** The fingers on the surface, each with the level it feels. */
 function fingersPart(root, app) {
   const list = el('div', { class: 'fingers' });
@@ -18,7 +21,7 @@ function fingersPart(root, app) {
         el('b'), el('span', { class: 'quiet' }), el('span'), el('span', { class: 'quiet' })));
       const felt = finger.level_db === null || finger.level_db === undefined
         ? 'Not felt yet' : `${decibels(finger.level_db)} above threshold`;
-      setText(row.children[0], `Finger ${finger.id}`);
+      setText(row.children[0], `Finger ${i + 1}`);
       setText(row.children[1], place(finger.at_mm));
       setText(row.children[2], felt);
       const more = [finger.contrast == null ? '' : `contrast ${number(finger.contrast)}`, finger.force_n == null ? '' : newtons(finger.force_n)];
@@ -91,12 +94,21 @@ function devicePart(root, app) {
 /** The line at the foot of the page. */
 export function mountFoot(app, cost) {
   const [clock, device, viewers, spent] = ['clock', 'device', 'viewers', 'cost'].map((id) => document.getElementById(`foot-${id}`));
+  let wanted = null;
+  // What is asked for, and beside it what this machine gives where that is less.
+  const sayRate = (real) => {
+    const asked = speedText(wanted.speed).toLowerCase();
+    const short = real != null && !wanted.paused && real < KEPT * wanted.speed;
+    setText(device, `${wanted.device?.name ?? 'no device'}, ${short ? `${number(real, 2)} of real time (slower than asked)` : asked}`);
+  };
   app.state.subscribe('status', (status) => {
     setText(clock, `${fixed(status.clock_s, 1)} s`);
+    if (wanted) sayRate(status.speed_real);
     setText(viewers, status.viewers === 1 ? '1 viewer' : `${status.viewers} viewers`);
   });
   app.state.subscribe('settings', (settings) => {
-    setText(device, `${settings.device?.name ?? 'no device'}, ${speedText(settings.speed).toLowerCase()}`);
+    wanted = settings;
+    sayRate(app.state.last('status')?.speed_real);
   });
   setInterval(() => {
     setText(spent, `${fixed(cost.mean_ms, 1)} ms per frame, ${fixed(cost.frames_per_s, 0)} frames/s`);

@@ -6,10 +6,14 @@ const HOLD_MS = 4000;
 const LOW = 0.5;
 const FLOOR = 1e-9;
 
+/** Share of the largest peak of a surface below which the scale does not fall: what is left of a touch is shown as next to nothing. */
+const LEFT = 1e-3;
+
 /** An automatic scale that stays put while values only wander. */
 export class Scale {
   full = FLOOR;
   held = false;
+  #most = 0;
   #peaks = [];
   #quantity = null;
 
@@ -19,8 +23,10 @@ export class Scale {
     if (other) {
       this.#quantity = quantity;
       this.#peaks = [];
+      this.#most = 0;
       this.full = FLOOR;
     }
+    this.#most = Math.max(this.#most, peak);
     if (this.held && this.full > FLOOR) return other;
     const before = this.full;
     this.#peaks.push([now, peak]);
@@ -33,7 +39,7 @@ export class Scale {
   #lower() {
     const most = this.#peaks.reduce((m, [, p]) => Math.max(m, p), 0);
     if (most >= LOW * this.full) return;
-    this.full = Math.max(FLOOR, roundUp(Math.max(most, this.full / 5) * 1.05));
+    this.full = Math.max(FLOOR, roundUp(Math.max(most, this.full / 5, LEFT * this.#most) * 1.05));
     this.#peaks = this.#peaks.slice(-1);
   }
 

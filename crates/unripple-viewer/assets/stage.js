@@ -264,7 +264,7 @@ export class Stage {
       if (!box.firstChild) box.append(el('b'), el('span'));
       setText(box.firstChild, this.panes > 1 ? methods[i] ?? `Pane ${i + 1}` : '');
       const peak = frame?.head.peak > 0 ? `peak ${this.peakText(frame)}` : '';
-      setText(box.lastChild, peak && frame.head.strobed ? `${peak}, at the strongest focus` : peak);
+      setText(box.lastChild, peak && frame.head.strobed ? `${peak}, strongest since the last picture` : peak);
     }
   }
 

@@ -1,6 +1,11 @@
 // Numbers as text, always with their unit.
 
 const NONE = '–';
+
+/** Fewest ticks of an axis, and the number of wanted ticks beyond which no more are tried. */
+const FEWEST = 3;
+const MOST = 20;
+
 const missing = (value) => value === null || value === undefined || !Number.isFinite(value);
 
 /** A number to some significant digits, with a true minus sign; nothing known is a dash. */
@@ -70,7 +75,7 @@ export function roundUp(value) {
   return (step ?? 10) * power;
 }
 
-/** Round ticks between two values, about `count` of them. */
+/** Round ticks between two values, about `count` of them, and three or more: zero alone would tell no scale. */
 export function ticks(from, to, count = 5) {
   const span = to - from;
   if (!(span > 0) || !Number.isFinite(span)) return [];
@@ -79,7 +84,7 @@ export function ticks(from, to, count = 5) {
   const step = ([1, 2, 5, 10].find((s) => raw <= s * power * (1 + 1e-9)) ?? 10) * power;
   const out = [];
   for (let i = Math.ceil(from / step - 1e-9); i * step <= to + span * 1e-9; i += 1) out.push(i === 0 ? 0 : i * step);
-  return out;
+  return out.length < FEWEST && count < MOST ? ticks(from, to, 2 * count) : out;
 }
 
 /** Texts of ticks with just as many decimals as they need. */
