@@ -41,9 +41,11 @@ function follow(app, { edits, file, form, places, figures, map }) {
   };
   app.state.subscribe('surface', (surface) => {
     show(surface);
-    const same = String(drawn?.extent_mm) === String(surface.extent_mm);
+    // A map of another shape would be clipped into this one.
+    const same = drawn && shape(drawn) === shape(surface);
     drawn = surface;
-    map.show(same ? now?.map : null, surface);
+    if (now && !same) now = { ...now, map: null };
+    map.show(now?.map, surface);
   });
   app.state.subscribe('connection', () => {
     newest = -Infinity;
@@ -61,6 +63,9 @@ function follow(app, { edits, file, form, places, figures, map }) {
     if (surface && app.shown() === 'design' && edits.idle) show(surface);
   });
 }
+
+/** What tells one outline from another. */
+const shape = ({ extent_mm, rings_mm }) => JSON.stringify([extent_mm, rings_mm]);
 
 function section(title, ...content) {
   return el('section', { class: 'card stack' }, el('h2', {}, title), ...content);
