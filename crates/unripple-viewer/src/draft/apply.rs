@@ -21,9 +21,14 @@ pub fn apply(surface: &Surface, edit: &Edit) -> Surface {
     if let (Some(index), Some([x, y])) = (edit.actuator, edit.at_mm)
         && let Some(actuator) = surface.actuators.get_mut(index)
     {
-        actuator.at = Point::from_mm(x, y);
+        actuator.at = Point::new(thousandth(x), thousandth(y));
     }
     surface
+}
+
+/// A thousandth of a value, from its decimal digits: neither a product with 1e-3 nor a quotient by 1e3 has the digits that were typed.
+fn thousandth(value: f64) -> f64 {
+    format!("{value}e-3").parse().unwrap_or(value / 1e3)
 }
 
 fn sheet(surface: &mut Surface, edit: &Edit) {
@@ -38,16 +43,16 @@ fn sheet(surface: &mut Surface, edit: &Edit) {
             sheet.strength = Some(material.strength);
         }
     }
-    sheet.thickness = edit.thickness_mm.map_or(sheet.thickness, |mm| mm * 1e-3);
+    sheet.thickness = edit.thickness_mm.map_or(sheet.thickness, thousandth);
     sheet.tension = edit.tension_n_per_m.unwrap_or(sheet.tension);
     if let Some(ms) = edit.decay_time_ms {
-        sheet.decay = Decay::Time(ms * 1e-3);
+        sheet.decay = Decay::Time(thousandth(ms));
     }
     surface.emission.band[1] = edit.band_top_hz.unwrap_or(surface.emission.band[1]);
 }
 
 fn shape(edit: &Edit) -> Option<Shape> {
-    let m = |mm: f64| mm * 1e-3;
+    let m = thousandth;
     let rectangle = edit.rectangle_mm.map(|[w, h]| Shape::Rectangle { width: m(w), height: m(h) });
     let circle = edit.circle_mm.map(|radius| Shape::Circle { radius: m(radius) });
     let stadium = edit.stadium_mm.map(|[s, r]| Shape::Stadium { straight: m(s), radius: m(r) });
