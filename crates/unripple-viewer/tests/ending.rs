@@ -87,6 +87,32 @@ fn a_calibration_that_is_stopped_says_so_before_it_measures_on() {
     assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
 }
 
+/// Points of a library that another surface's calibration made are not those of one that is refused for its sake.
+#[test]
+fn a_calibration_that_fails_at_once_shows_no_points() {
+    let folder = Folder::new("refused");
+    let (served, _) = calibrating(&folder);
+    let mut page = served.page();
+    let id = until(&mut page, "job")["id"].as_u64().unwrap();
+    page.send(Message::text(format!(r#"{{"do":"job","stop":{id}}}"#))).unwrap();
+    while until(&mut page, "job")["state"] != "stopped" {}
+    page.send(Message::text(r#"{"do":"edit","tension_n_per_m":170}"#)).unwrap();
+    page.send(Message::text(r#"{"do":"job","start":"calibrate","name":"film","grid_mm":3}"#)).unwrap();
+    let mut shown = false;
+    loop {
+        let job = until(&mut page, "job");
+        if job["id"].as_u64() == Some(id) {
+            continue;
+        }
+        shown |= !job["quality"].is_null();
+        if job["state"] == "failed" {
+            break;
+        }
+        assert_eq!(job["state"], "running", "{job}");
+    }
+    assert!(!shown);
+}
+
 #[test]
 fn a_surface_that_is_still_computed_can_be_given_up() {
     // The modes of this outline need a mesh and take seconds: long enough to be asked ten times whether to go on.

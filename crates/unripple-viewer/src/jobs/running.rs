@@ -16,6 +16,9 @@ use unripple_tasks::{Progress, Report, TaskError, apart, calibrate, devices, doc
 const LINES: usize = 12;
 const LONGEST: usize = 400;
 
+/// The stage in which a task fills its library. Before it the folder may hold another task's library.
+const FILLING: &str = "points";
+
 /// Interval of the messages on progress: as fast as a bar's progress is seen.
 const LOOKED: Duration = Duration::from_millis(400);
 
@@ -76,14 +79,18 @@ pub struct Running {
 struct Now {
     share: Option<f64>,
     lines: VecDeque<String>,
+    /// Whether the task has begun to fill its library.
+    filling: bool,
 }
 
 /// The task's progress, as pages see it.
 struct Heard(Arc<Running>);
 
 impl Progress for Heard {
-    fn stage(&mut self, _what: &str) {
-        lock(&self.0.now).share = None;
+    fn stage(&mut self, what: &str) {
+        let mut now = lock(&self.0.now);
+        now.share = None;
+        now.filling |= what == FILLING;
     }
 
     fn done(&mut self, share: f64) {
@@ -171,7 +178,8 @@ impl Running {
     }
 
     fn tell(&self, notices: &Notices, state: &str, result: Value, quality: Option<&mut Quality>) {
-        let (share, quality) = quality.map_or((None, Value::Null), Quality::look);
+        let filling = lock(&self.now).filling;
+        let (share, quality) = quality.filter(|_| filling).map_or((None, Value::Null), Quality::look);
         let now = lock(&self.now);
         let message = json!({
             "is": "job",
