@@ -224,9 +224,9 @@ impl Simulation {
         self.instrument = instrument;
         self.replay = None;
         let Transport { speed, paused, .. } = self.transport;
-        // A block of it is played at once, so that there is something to look at even while time stands still.
+        // A block of it is played at once, so that there is something to look at while time stands still.
         let now = 1.0 / self.instrument.rate();
-        self.transport = Transport { speed, paused: paused && speed < 1.0, now, ..Transport::default() };
+        self.transport = Transport { speed, paused, now, ..Transport::default() };
         self.pace = (0.0, 0.0, speed);
         self.before = 0.0;
         self.wrong = None;

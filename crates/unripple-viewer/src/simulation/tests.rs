@@ -82,18 +82,20 @@ fn the_clock_of_another_surface_is_told_before_how_it_is_played() {
 
 #[test]
 fn a_surface_that_is_played_otherwise_is_seen_while_time_stands_still() {
-    let (mut simulation, _) = running();
-    let mut out = Outbox::default();
-    let slowly = wire::Transport { speed: Some(0.02), paused: Some(true), ..wire::Transport::default() };
-    simulation.obey(Order::Transport(slowly), &mut out);
-    let other = Instrument::build(spec(), &mut Silent).unwrap();
-    simulation.obey(Order::Play(Box::new(other), json!({ "is": "settings" })), &mut out);
-    simulation.advance(0.1, 1, &mut some(20), &mut out);
-    assert!(simulation.transport.paused && simulation.head() > 0.0);
-    assert!(order(&out.take()).contains(&"frame"));
-    let head = simulation.head();
-    simulation.advance(0.1, 1, &mut some(20), &mut out);
-    assert_eq!(simulation.head(), head);
+    for speed in [0.02, 1.0] {
+        let (mut simulation, _) = running();
+        let mut out = Outbox::default();
+        let paused = wire::Transport { speed: Some(speed), paused: Some(true), ..wire::Transport::default() };
+        simulation.obey(Order::Transport(paused), &mut out);
+        let other = Instrument::build(spec(), &mut Silent).unwrap();
+        simulation.obey(Order::Play(Box::new(other), json!({ "is": "settings" })), &mut out);
+        simulation.advance(0.1, 1, &mut some(20), &mut out);
+        assert!(simulation.transport.paused && simulation.head() > 0.0, "{speed}");
+        assert!(order(&out.take()).contains(&"frame"));
+        let head = simulation.head();
+        simulation.advance(0.1, 1, &mut some(20), &mut out);
+        assert_eq!(simulation.head(), head);
+    }
 }
 
 /// The first mode of the film is at 166 Hz.
