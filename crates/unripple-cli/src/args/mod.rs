@@ -33,8 +33,8 @@ pub struct Arguments {
     /// Print the report as one JSON object (SI units) on standard output, everything else on standard error.
     #[arg(long, global = true, help_heading = heading::EVERY)]
     pub json: bool,
-    /// Set a key of SURFACE's file to another value, as in sheet.tension_n_per_m=220 or actuator[0].at_mm=[12,31]; without a value the key
-    /// is removed. Repeatable.
+    /// Set a key of SURFACE's file to another value, as in sheet.tension_n_per_m=220 or actuator[0].at_mm=[12,31]; `KEY=` removes the
+    /// key. Repeatable.
     #[arg(long, global = true, value_name = "KEY=VALUE", help_heading = heading::EVERY)]
     pub set: Vec<String>,
     /// Compute natural frequencies to this relative accuracy, 1e-12 to 0.1, as `--set accuracy=RATIO` does. By default 1e-6, or 1e-4
