@@ -3,6 +3,9 @@
 
 #![allow(dead_code)]
 
+mod noise;
+
+pub use noise::Noise;
 use std::f64::consts::{PI, TAU};
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Rig, Session, Wires};
@@ -337,24 +340,6 @@ fn between(line: &[f64], at: f64) -> f64 {
             x * (0..12).filter(|j| *j != k).map(weight).product::<f64>()
         })
         .sum()
-}
-
-/// Gaussian noise (splitmix64, Box and Muller).
-pub struct Noise(pub u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub fn gauss(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        radius * (TAU * self.uniform()).cos()
-    }
 }
 
 struct Recorder(Tape);
