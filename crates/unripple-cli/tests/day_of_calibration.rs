@@ -8,7 +8,7 @@ mod common;
 use common::{Scratch, json, number};
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::time::{Duration, Instant};
 use unripple::core::{Drive, Point, Random, Responses};
 use unripple::field::{Aim, Field};
@@ -72,7 +72,7 @@ fn a_film_is_calibrated_by_probe_and_by_taps_killed_fitted_and_focused() {
     let seed = SEED.to_string();
     let film = ["calibrate", "hudin-2012", "--unknowns", &seed, "--grid-mm", "7.5"];
     let [probed, tapped, fitted] = ["probed", "tapped", "fitted"].map(|name| scratch.join(name));
-    let mut step = |what: &str, shares: Option<Vec<f64>>| {
+    let step = |what: &str, shares: Option<Vec<f64>>| {
         let shares = shares.map_or(String::new(), |all| format!(", shares of the true contrast {all:.3?}"));
         println!("{:7.1} s  {what}{shares}", begun.elapsed().as_secs_f64());
     };
