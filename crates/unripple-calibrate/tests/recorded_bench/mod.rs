@@ -3,9 +3,7 @@
 
 #![allow(dead_code)]
 
-mod noise;
-
-pub use noise::Noise;
+use crate::signals_bench::Noise;
 use std::f64::consts::{PI, TAU};
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Rig, Session, Wires};
