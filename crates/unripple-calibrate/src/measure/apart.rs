@@ -109,8 +109,8 @@ impl<'a> Pairs<'a> {
         let top = TAU * self.band[1] * self.samples as f64 / self.rate;
         let step = (2.0 * TURN / top).min(MOST_CHANGE / 4.0);
         let count = (MOST_CHANGE / step).ceil() as i64;
-        let (mut best, mut most) = match change {
-            Change::None => (0.0, 0.0),
+        let mut best = match change {
+            Change::None => 0.0,
             Change::Near(near) => {
                 let middle = ((near / step).round() as i64).clamp(-count, count);
                 let [from, to] = [middle - NEAR, middle + NEAR].map(|i| i.clamp(-count, count));
@@ -119,22 +119,21 @@ impl<'a> Pairs<'a> {
                     let at = (change / step).round() as i64;
                     *likeness >= ALIKE && (at > from || from == -count) && (at < to || to == count)
                 };
-                Some(found).filter(within).unwrap_or_else(|| self.best(step, -count..=count))
+                Some(found).filter(within).unwrap_or_else(|| self.best(step, -count..=count)).0
             }
         };
-        most = most.max(self.at(best, FINEST)[1]);
+        let [mut late, mut most] = self.at(best, FINEST);
         let mut reach = step;
         while change != Change::None && reach > 1e-8 {
             reach /= 2.0;
             for change in [best - reach, best + reach] {
-                let likeness = self.at(change, FINEST)[1];
+                let [at, likeness] = self.at(change, FINEST);
                 if likeness > most {
-                    (best, most) = (change, likeness);
+                    (best, late, most) = (change, at, likeness);
                 }
             }
         }
-        let [late, likeness] = self.at(best, FINEST);
-        Apart { late, change: best, likeness, errors: self.errors(best, late, likeness, step) }
+        Apart { late, change: best, likeness: most, errors: self.errors(best, late, most, step) }
     }
 
     /// The change with which the pairs agree best, of so many steps, and their correlation then.

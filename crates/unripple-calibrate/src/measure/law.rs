@@ -31,9 +31,6 @@ impl Law {
     }
 
     fn ratio(&self, hz: f64, change: f64) -> f64 {
-        if !self.tension {
-            return (1.0 + change).max(0.25).sqrt();
-        }
         let place = (hz / self.step).clamp(0.0, (POINTS - 1) as f64);
         let left = place as usize;
         let part = place - left as f64;

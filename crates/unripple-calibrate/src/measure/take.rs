@@ -148,8 +148,8 @@ impl Judge<'_> {
         };
         Ok(match self.known {
             _ if self.sensors.is_empty() => telling.beside_the_loudest(self.length),
-            Some(known) => telling.beside(known, false),
-            None => telling.beside_each_other(self.length, false),
+            Some(known) => telling.beside(known),
+            None => telling.beside_each_other(self.length),
         })
     }
 

@@ -57,9 +57,9 @@ pub(super) fn around(whole: &[f64], first: i64, length: usize) -> Vec<f64> {
 
 impl Telling<'_> {
     /// How each sweep differs from the responses of the same sensors in another take, `known[sensor][actuator][sample]` from time 0:
-    /// in delay and, unless `still`, in tension. `None` for a sweep that is not recognised.
-    pub fn beside(&self, known: &[Vec<Vec<f64>>], still: bool) -> Vec<Option<Apart>> {
-        let mut change = if still { Change::None } else { Change::Near(0.0) };
+    /// in delay and in tension. `None` for a sweep that is not recognised.
+    pub fn beside(&self, known: &[Vec<Vec<f64>>]) -> Vec<Option<Apart>> {
+        let mut change = Change::Near(0.0);
         let one = |(sweep, start): (usize, &usize)| {
             let pairs: Vec<(&[f64], usize)> =
                 known.iter().enumerate().filter_map(|(s, k)| Some((k.get(sweep)?.as_slice(), s))).collect();
@@ -73,9 +73,9 @@ impl Telling<'_> {
     /// Delay and change of tension of each sweep relative to the others, for actuators whose sensors are recorded, by reciprocity:
     /// the response of sensor a to the sweep of actuator b equals that of b to the sweep of a, which is played at another time. A part
     /// common to all sweeps cannot be found.
-    pub fn beside_each_other(&self, length: usize, still: bool) -> Vec<Option<Apart>> {
+    pub fn beside_each_other(&self, length: usize) -> Vec<Option<Apart>> {
         let count = self.sensors.len();
-        let mut change = if still { Change::None } else { Change::Near(0.0) };
+        let mut change = Change::Near(0.0);
         let mut pairs: Vec<(usize, usize, Apart)> = Vec::new();
         for i in 0..count {
             for j in i + 1..count {
