@@ -4,9 +4,10 @@ mod common;
 
 use common::{Served, until};
 use std::cell::Cell;
+use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use tungstenite::Message;
+use tungstenite::{Message, WebSocket};
 use unripple_store::{Library, PointState};
 use unripple_tasks::{Progress, TaskError};
 use unripple_viewer::task::{Ask, run};
@@ -74,6 +75,12 @@ fn a_calibration_ends_with_the_viewer_and_its_library_can_be_gone_on_with() {
     assert!(measured(&left) >= measured(&begun) && !left.in_state(PointState::Missing).is_empty());
 }
 
+/// Stops a job, and waits until it says that it is.
+fn stop(page: &mut WebSocket<TcpStream>, id: u64) {
+    page.send(Message::text(format!(r#"{{"do":"job","stop":{id}}}"#))).unwrap();
+    while until(page, "job")["state"] != "stopped" {}
+}
+
 #[test]
 fn a_calibration_that_is_stopped_says_so_before_it_measures_on() {
     let folder = Folder::new("stopped");
@@ -81,8 +88,7 @@ fn a_calibration_that_is_stopped_says_so_before_it_measures_on() {
     let mut page = served.page();
     let id = until(&mut page, "job")["id"].as_u64().unwrap();
     let began = Instant::now();
-    page.send(Message::text(format!(r#"{{"do":"job","stop":{id}}}"#))).unwrap();
-    while until(&mut page, "job")["state"] != "stopped" {}
+    stop(&mut page, id);
     // Even where much else is at work.
     assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
 }
@@ -94,8 +100,7 @@ fn a_calibration_that_fails_at_once_shows_no_points() {
     let (served, _) = calibrating(&folder);
     let mut page = served.page();
     let id = until(&mut page, "job")["id"].as_u64().unwrap();
-    page.send(Message::text(format!(r#"{{"do":"job","stop":{id}}}"#))).unwrap();
-    while until(&mut page, "job")["state"] != "stopped" {}
+    stop(&mut page, id);
     page.send(Message::text(r#"{"do":"edit","tension_n_per_m":170}"#)).unwrap();
     page.send(Message::text(r#"{"do":"job","start":"calibrate","name":"film","grid_mm":3}"#)).unwrap();
     let mut shown = false;
