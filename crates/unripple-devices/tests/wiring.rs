@@ -79,6 +79,23 @@ fn a_dead_channel_is_silent() {
     assert_eq!(faults(InjectedFaults::default(), mute), ["output `a2` is silent"]);
 }
 
+/// At a ratio of signal to noise at which sweeps measure well, a single burst is hardly heard.
+#[test]
+fn what_is_in_the_noise_is_listened_for_again() {
+    let (truth, modes, expected) = known();
+    for (snr_db, gain) in [(40.0, 0.2), (30.0, 0.6)] {
+        let noisy = Truth { snr_db, ..truth.clone() };
+        // A drive that is weaker than the others, and a sensor that is dead.
+        let interface = Interface { drive_gains: gains(8, &[(2, gain)]), ..Default::default() };
+        let interface = Interface { heard_gains: gains(9, &[(5, 0.0)]), ..interface };
+        let options = VirtualOptions { probe: Some(PROBE_AT), interface, ..Default::default() };
+        let mut device = Virtual::of_truth_with_modes(&noisy, modes.clone(), &options).unwrap();
+        let report = check_wiring(&mut device, expected, &WiringOptions::for_band([0.0, 3e3])).unwrap();
+        println!("{snr_db} dB: {report}");
+        assert_eq!(report.faults(), ["input `a6` is silent"], "{snr_db} dB: {report}");
+    }
+}
+
 #[test]
 fn swapped_channels_are_told_apart() {
     let swapped = InjectedFaults { swapped: vec![(0, 4), (2, 3)], ..Default::default() };

@@ -1,13 +1,11 @@
 //! Which channel is which: an assignment by normalised correlation.
 
-use super::take::Takes;
+use super::take::{ABOVE_NOISE, Takes};
 use std::collections::HashMap;
 use unripple_core::Layout;
 use unripple_dsp::{Convolver, rms};
 
-/// A channel counts as carrying a signal where it exceeds the noise by `ABOVE_NOISE` (10 dB), and has at least the
-/// share `ABOVE_OTHERS` (-40 dB) of the loudest channel. With half the factor noise alone may pass for a signal.
-const ABOVE_NOISE: f64 = 3.0;
+/// Share (-40 dB) of the loudest channel that a channel with a signal has at least.
 const ABOVE_OTHERS: f64 = 0.01;
 
 /// Correlation that an exchange of wires must add at least for each recording that it concerns, on average. Without
@@ -61,7 +59,7 @@ impl<'a> Likeness<'a> {
             &heard[from..(latency + takes.window).min(heard.len())]
         };
         let level = |pair: usize| rms(part(pair));
-        let loud = |pair: &usize| level(*pair) > ABOVE_NOISE * takes.noise[pair % inputs];
+        let loud = |pair: &usize| level(*pair) > ABOVE_NOISE * takes.noise[*pair];
         let loudest = (0..outputs * inputs).map(level).fold(0.0, f64::max);
         let alive = |pairs: Vec<usize>| {
             let share = |pair: &usize| {

@@ -5,14 +5,26 @@ use std::f64::consts::TAU;
 use unripple_core::{Device, DeviceError, Layout};
 use unripple_dsp::rms;
 
+/// A channel counts as carrying a signal where it exceeds the noise by this factor (10 dB). With half of it noise alone may pass for a
+/// signal.
+pub(super) const ABOVE_NOISE: f64 = 3.0;
+
+/// Number of bursts that are averaged where one is hardly louder than the noise, which then is 9 dB less: sweeps, a hundred times longer
+/// than a burst, measure well there. More would take longer than the sweeps.
+const AGAIN: usize = 8;
+
+/// Multiple of the noise from which a recording may hold a signal that so many bursts bring out, spread over two of the parts in which it
+/// is looked for. Below it is noise alone, and repeating it would only keep somebody waiting whose cable is not plugged in.
+const PERHAPS: f64 = 1.2;
+
 /// Recordings of every input while each output plays its burst, from the burst's start on.
 #[derive(Clone, Debug)]
 pub(super) struct Takes {
     pub(super) outputs: usize,
     pub(super) inputs: usize,
-    /// Recordings, `[output · inputs + input][sample]`.
+    /// Recordings, `[output · inputs + input][sample]`, each a mean over its bursts.
     pub(super) heard: Vec<Vec<f64>>,
-    /// Root mean square of each input while nothing played.
+    /// Root mean square of the noise in each of them: that of as many recordings of silence.
     pub(super) noise: Vec<f64>,
     /// Samples compared with the model.
     pub(super) window: usize,
@@ -30,46 +42,99 @@ fn burst(options: &WiringOptions, rate: f64) -> Vec<f64> {
     (0..samples).map(at).collect()
 }
 
-/// Plays a burst at each output in turn.
+/// Plays a burst at each output in turn, and again, several times, where it is hardly louder than the noise.
 pub(super) fn record(
     device: &mut dyn Device,
     layout: &Layout,
     options: &WiringOptions,
 ) -> Result<Takes, DeviceError> {
-    let Layout { rate, block, .. } = *layout;
     let (outputs, inputs) = (layout.outputs.len(), layout.inputs.len());
-    let samples = |time: f64| (time * rate).ceil() as usize;
+    let samples = |time: f64| (time * layout.rate).ceil() as usize;
     let (window, most) = (samples(options.listen), samples(options.max_latency));
-    let burst = burst(options, rate);
-    let pause = samples(options.pause).div_ceil(block);
-    let blocks = (window + most).div_ceil(block).max(1);
-    let mut drive = vec![0.0f32; outputs * block];
-    let mut heard = vec![0.0f32; inputs * block];
-    // The first silence lets a device settle; its end is the noise.
-    let mut listen = |device: &mut dyn Device, blocks: usize, output: Option<usize>| {
+    let mut bench = Bench {
+        device,
+        layout,
+        burst: burst(options, layout.rate).into_iter().map(|x| (options.level * x) as f32).collect(),
+        pause: samples(options.pause).div_ceil(layout.block),
+        blocks: (window + most).div_ceil(layout.block).max(1),
+    };
+    // The first silence lets a device settle.
+    bench.listen(bench.pause, None)?;
+    let levels = |takes: &[Vec<f64>]| takes.iter().map(|take| rms(take)).collect::<Vec<f64>>();
+    let silence = levels(&bench.mean(None, 1)?);
+    let mut heard: Vec<Vec<f64>> = Vec::with_capacity(outputs * inputs);
+    for output in 0..outputs {
+        heard.extend(bench.mean(Some(output), 1)?);
+    }
+    let mut noise: Vec<f64> = (0..outputs).flat_map(|_| silence.iter().copied()).collect();
+    let above = |output: usize, input: usize, noise: f64| {
+        let take = &heard[output * inputs + input];
+        take.chunks(window.max(1)).map(rms).fold(0.0, f64::max) > noise * silence[input]
+    };
+    let unsure = |pairs: &[(usize, usize)]| {
+        let any = |noise: f64| pairs.iter().any(|(output, input)| above(*output, *input, noise));
+        any(PERHAPS) && !any(ABOVE_NOISE)
+    };
+    let by_input = |input: usize| (0..outputs).map(|output| (output, input)).collect::<Vec<_>>();
+    let by_output = |output: usize| (0..inputs).map(|input| (output, input)).collect::<Vec<_>>();
+    let all = (0..inputs).any(|input| unsure(&by_input(input)));
+    let again: Vec<usize> = (0..outputs).filter(|output| all || unsure(&by_output(*output))).collect();
+    if !again.is_empty() {
+        let silence = levels(&bench.mean(None, AGAIN)?);
+        for output in again {
+            let own = output * inputs..(output + 1) * inputs;
+            heard.splice(own.clone(), bench.mean(Some(output), AGAIN)?);
+            noise[own].copy_from_slice(&silence);
+        }
+    }
+    Ok(Takes { outputs, inputs, heard, noise, window, most })
+}
+
+/// A device, and what is played to it: a burst, then silence until it has died away.
+struct Bench<'a> {
+    device: &'a mut dyn Device,
+    layout: &'a Layout,
+    /// The burst at its level.
+    burst: Vec<f32>,
+    /// Blocks between recordings, and of a recording.
+    pause: usize,
+    blocks: usize,
+}
+
+impl Bench<'_> {
+    /// What all inputs hear for some blocks, while the burst is played at one output, or nothing.
+    fn listen(&mut self, blocks: usize, output: Option<usize>) -> Result<Vec<Vec<f64>>, DeviceError> {
+        let block = self.layout.block;
+        let (outputs, inputs) = (self.layout.outputs.len(), self.layout.inputs.len());
+        let (mut drive, mut heard) = (vec![0.0f32; outputs * block], vec![0.0f32; inputs * block]);
         let mut takes = vec![Vec::with_capacity(blocks * block); inputs];
         for start in (0..blocks).map(|b| b * block) {
             drive.fill(0.0);
             if let Some(output) = output {
                 let plane = &mut drive[output * block..(output + 1) * block];
-                let from = burst.get(start..).unwrap_or(&[]);
-                plane.iter_mut().zip(from).for_each(|(to, x)| *to = (options.level * x) as f32);
+                let from = self.burst.get(start..).unwrap_or(&[]);
+                plane.iter_mut().zip(from).for_each(|(to, x)| *to = *x);
             }
-            device.exchange(&drive, &mut heard)?;
+            self.device.exchange(&drive, &mut heard)?;
             for (take, plane) in takes.iter_mut().zip(heard.chunks_exact(block)) {
                 take.extend(plane.iter().map(|x| f64::from(*x)));
             }
         }
-        Ok::<_, DeviceError>(takes)
-    };
-    listen(device, pause, None)?;
-    let noise = listen(device, blocks, None)?.iter().map(|take| rms(take)).collect();
-    let mut all = Vec::with_capacity(outputs * inputs);
-    for output in 0..outputs {
-        all.extend(listen(device, blocks, Some(output))?);
-        listen(device, pause, None)?;
+        Ok(takes)
     }
-    Ok(Takes { outputs, inputs, heard: all, noise, window, most })
+
+    /// The mean of so many recordings of all inputs, each followed by silence.
+    fn mean(&mut self, output: Option<usize>, times: usize) -> Result<Vec<Vec<f64>>, DeviceError> {
+        let mut sum = vec![vec![0.0; self.blocks * self.layout.block]; self.layout.inputs.len()];
+        for _ in 0..times {
+            let takes = self.listen(self.blocks, output)?;
+            self.listen(self.pause, None)?;
+            for (sum, take) in sum.iter_mut().zip(&takes) {
+                sum.iter_mut().zip(take).for_each(|(sum, x)| *sum += x / times as f64);
+            }
+        }
+        Ok(sum)
+    }
 }
 
 /// Recordings of the same bursts, as they follow from measured responses.
@@ -87,7 +152,7 @@ pub(super) fn played(heard: &[Vec<Vec<f64>>], layout: &Layout, options: &WiringO
         outputs: layout.outputs.len(),
         inputs,
         heard: heard.iter().flatten().map(line).collect(),
-        noise: vec![0.0; inputs],
+        noise: vec![0.0; heard.len() * inputs],
         window,
         most,
     }
