@@ -160,16 +160,16 @@ impl Bench<'_> {
         told.max(TURNED / self.surface.emission.band[1])
     }
 
-    /// Factor by which the number of modes reduces the error of a place or a delay found by a fit.
+    /// Factor by which the number of modes reduces the error of a delay found by a fit.
     fn told(&self) -> f64 {
         (8.0 / self.quick.fitted.beyond().poles.len().max(4) as f64).sqrt()
     }
 
-    /// Error (m) of a place along each axis, from the unexplained share: as if each mode were one independent
-    /// measurement.
+    /// Error (m) of a place along each axis: the displacement that leaves as much unexplained as the model does. Along one axis the mean
+    /// square of the wavenumber is a quarter of its square at the band's top.
     fn error(&self, spot: &Spot) -> f64 {
         let k = std::f64::consts::TAU / self.wave;
-        spot.found.unexplained() / k * self.told()
+        2.0 * spot.found.unexplained() / k
     }
 
     fn whose(&self, point: usize, at: Point) -> Whose {

@@ -10,6 +10,10 @@ const ANOTHER: f64 = 0.14;
 /// %.
 const ONE: f64 = 0.14;
 
+/// Largest share of what the stated place leaves unexplained that another one may leave to count as the probe's. Errors of the model, such
+/// as a stray mass that it does not know, leave 0.65 beside them and more; a probe that was a tenth of a wave off leaves less than half.
+const CLEARLY: f64 = 0.6;
+
 /// Number of standard errors by which a gain has to differ to be corrected. By chance one point in 370 differs by that.
 const SURE: f64 = 3.0;
 
@@ -50,23 +54,40 @@ impl Levels {
         Self { common, scale: common.unwrap_or(scale) }
     }
 
+    /// Whether the place nearby explains the responses clearly better than the stated one, and is not an effect of the gain: beside a rim
+    /// and near nodes, responses at another place differ by little else than a gain. The gain of a probe that was moved is the common one,
+    /// and one that changed together with the place is much the same at both places.
+    pub fn moved(&self, judged: &Judged) -> bool {
+        let [own, nearby] = [judged.own, judged.nearby.found];
+        let one = |common: f64| same(nearby.gain.abs(), common.abs());
+        nearby.unexplained() < CLEARLY * own.unexplained()
+            && (same(nearby.gain, own.gain) || self.common.is_none_or(one))
+    }
+
+    /// The gain of a point: that at its stated place, or that at the place nearby if it was [moved](Self::moved).
+    pub fn gain(&self, judged: &Judged) -> f64 {
+        if self.moved(judged) { judged.nearby.found.gain } else { judged.own.gain }
+    }
+
     /// Factor that would bring a point's responses to the common gain; `None` if they have it.
     pub fn off(&self, judged: &Judged) -> Option<f64> {
-        let gain = judged.nearby.found.gain;
+        let gain = self.gain(judged);
         self.common.filter(|common| !same(gain, *common)).map(|common| common / gain)
     }
 
-    /// The factor of [`Levels::off`], if it is certain; otherwise `None`. Two conditions hold then. The gain at the stated place is equal
-    /// to that at the best place nearby, since a probe a little beside its place has another gain near a node. And the factor is negative,
-    /// or its logarithm exceeds three standard errors, which follow from the share that the model leaves unexplained and the number of
-    /// `actuators`.
+    /// The factor of [`Levels::off`], if it is certain; otherwise `None`. Two conditions hold then. The gains at the stated place and at
+    /// the best place nearby are equal, and neither is the common one, since a probe a little beside its place has another gain near a
+    /// node. And the factor is negative, or its logarithm exceeds three standard errors, which follow from the share that the model leaves
+    /// unexplained and the number of `actuators`.
     pub fn correction(&self, judged: &Judged, actuators: usize) -> Option<f64> {
         let [own, nearby] = [judged.own, judged.nearby.found];
         let left = own.unexplained().max(nearby.unexplained());
         let error =
             left / (1.0 - left * left).max(f64::MIN_POSITIVE).sqrt() / (actuators.max(1) as f64).sqrt();
         let sure = |factor: &f64| *factor < 0.0 || factor.ln().abs() > SURE * error;
-        self.off(judged).filter(|_| same(own.gain, nearby.gain)).filter(sure)
+        let common = |gain: f64| self.common.is_some_and(|common| same(gain, common));
+        let both = same(own.gain, nearby.gain) && !common(own.gain) && !common(nearby.gain);
+        self.off(judged).filter(|_| both).filter(sure)
     }
 }
 
@@ -90,6 +111,34 @@ mod tests {
         Judged { own: Match { likeness, gain: own }, nearby, error: 0.0, kind: Kind::Here }
     }
 
+    /// What was found of good points beside the rim of a film with stray masses: the gain beside the rim itself has no limit.
+    #[test]
+    fn another_place_counts_if_it_explains_more_by_one_gain() {
+        let found =
+            |unexplained: f64, gain: f64| Match { likeness: (1.0 - unexplained * unexplained).sqrt(), gain };
+        let at = |own: (f64, f64), nearby: (f64, f64)| {
+            let mut one = point(own.1, nearby.1, own.0);
+            one.nearby.found = found(nearby.0, nearby.1);
+            one
+        };
+        let levels = Levels::of(&vec![point(0.99, 0.99, 0.06); 9]);
+        let good = [
+            at((0.154, 1.0), (0.087, 43_995.0)),
+            at((0.137, 1.01), (0.084, 3.24)),
+            at((0.086, 0.98), (0.056, 0.80)),
+            at((0.107, 1.0), (0.073, 1.68)),
+            at((0.105, 1.08), (0.078, 1.08)),
+        ];
+        for one in good {
+            assert!(
+                !levels.moved(&one) && levels.off(&one).is_none() && levels.correction(&one, 8).is_none()
+            );
+        }
+        // Three millimetres beside its place, alone and with another gain.
+        assert!(levels.moved(&at((0.3, 0.94), (0.07, 0.99))));
+        assert!(levels.moved(&at((0.3, 1.9), (0.07, 2.0))));
+    }
+
     #[test]
     fn a_gain_is_corrected_only_where_it_is_sure() {
         let mut all = vec![point(1.0, 1.0, 0.05); 4];
@@ -101,7 +150,7 @@ mod tests {
         assert_eq!(levels.correction(&point(-1.0, -1.0, 0.3), 8), Some(-1.0));
         // Near a node: another gain a millimetre beside it.
         let beside = point(1.0, 1.3, 0.1);
-        assert!(levels.off(&beside).is_some() && levels.correction(&beside, 8).is_none());
+        assert!(levels.off(&beside).is_none() && levels.correction(&beside, 8).is_none());
         // Of a response that the model hardly explains: 0.39 / sqrt(8) is 14 %.
         let unsure = point(1.3, 1.3, 0.39);
         assert!(levels.off(&unsure).is_some() && levels.correction(&unsure, 8).is_none());

@@ -10,10 +10,6 @@ use unripple_core::Point;
 const FAR: f64 = 0.25;
 const WORTH: f64 = 0.025;
 
-/// Number of standard errors by which a place has to be off to be reported; with half as many, one place in seven would
-/// be by chance.
-const SURE: f64 = 3.0;
-
 /// The verdict on one point.
 pub(super) fn verdict(
     bench: &Bench,
@@ -26,12 +22,13 @@ pub(super) fn verdict(
     let at = bench.places[point];
     let lambda = bench.surface_wave();
     let off = one.nearby.at.distance(at);
-    let told = one.kind == Kind::Here && off > SURE * one.error && off > WORTH * lambda;
+    let unlike = one.own.unexplained() > bench.limit();
+    let told = one.kind == Kind::Here && off > WORTH * lambda && (unlike || levels.moved(one));
     let counts = one.kind == Kind::Here && bench.options.probe;
     let correction = levels.correction(one, bench.quick.actuators.len()).filter(|_| counts);
     // A response measured too far beside its place is useless there; a large unexplained share at the place shows that
     // as well.
-    let beside = off > FAR * lambda || one.own.unexplained() > bench.limit();
+    let beside = off > FAR * lambda || unlike;
     let doubt = match one.kind {
         Kind::Here if beside && told => Some(format!(
             "the probe seems to have been {} the point, at {} (move it to the point, or give the place where it was)",
@@ -41,7 +38,7 @@ pub(super) fn verdict(
         Kind::Here if levels.common.is_none() && bench.options.probe => Some(format!(
             "its gain is {:.2}, and other points have other gains: expected one gain at all points (was the probe's gain \
              changed?)",
-            one.nearby.found.gain / levels.scale
+            levels.gain(one) / levels.scale
         )),
         Kind::Here => None,
         Kind::Elsewhere(spot, whose) => Some(elsewhere(bench, judged, point, spot.at, whose)),
@@ -59,7 +56,7 @@ pub(super) fn verdict(
     PointVerdict {
         at,
         unexplained: one.own.unexplained(),
-        gain: one.nearby.found.gain / levels.scale,
+        gain: levels.gain(one) / levels.scale,
         late: one.nearby.late - common,
         fits: told.then_some((one.nearby.at, one.nearby.found.unexplained())),
         doubt,
