@@ -69,7 +69,7 @@ pub(super) fn record(
     let mut noise: Vec<f64> = (0..outputs).flat_map(|_| silence.iter().copied()).collect();
     let above = |output: usize, input: usize, noise: f64| {
         let take = &heard[output * inputs + input];
-        take.chunks(window.max(1)).map(rms).fold(0.0, f64::max) > noise * silence[input]
+        take.chunks_exact(window.max(1)).map(rms).fold(0.0, f64::max) > noise * silence[input]
     };
     let unsure = |pairs: &[(usize, usize)]| {
         let any = |noise: f64| pairs.iter().any(|(output, input)| above(*output, *input, noise));
