@@ -22,10 +22,6 @@ const SHARE: f64 = 0.97;
 /// modes, and the model corrects the phases that come of it in part.
 const LATE_WHERE_DAMPED: f64 = 0.1;
 
-/// Multiple of the stated uncertainty within which the latency of a surface that is not as it is told has to be, where that is more: coils on
-/// a voltage and housings of exciters couple the modes, and the phases that come of it are those of the model.
-const STATED: f64 = 3.0;
-
 /// Surfaces with every kind of actuator, each with a target and a window (s), to a top frequency of films and of glass.
 fn kinds(top: f64, on_glass: f64) -> Vec<(&'static str, Surface, Point, f64)> {
     use CoilDrive::{Current, Voltage};
@@ -69,10 +65,8 @@ fn told(name: &str, found: &Found) {
     found.faults.iter().for_each(|fault| println!("    {fault}"));
 }
 
-fn right(name: &str, found: &Found, unknown: bool) -> bool {
-    let told = if name.ends_with("damped") { LATE_WHERE_DAMPED } else { LATE };
-    let coupled = ["voltage", "exciter", "all kinds"].iter().any(|kind| name.starts_with(kind));
-    let late = if unknown && coupled { told.max(STATED * found.latency[1]) } else { told };
+fn right(name: &str, found: &Found) -> bool {
+    let late = if name.ends_with("damped") { LATE_WHERE_DAMPED } else { LATE };
     found.faults.is_empty() && found.latency[0].abs() < late && found.share >= SHARE
 }
 
@@ -88,7 +82,7 @@ fn every_kind_calibrates_right() {
         for (name, surface, at, window) in kinds(top, on_glass) {
             let found = calibrate(&surface, None, &MeasureOptions::default(), at, window);
             told(&format!("{name}, to {} Hz", surface.emission.band[1]), &found);
-            if !right(name, &found, false) {
+            if !right(name, &found) {
                 wrong.push(format!("{name} to {top} Hz"));
             }
         }
@@ -127,7 +121,7 @@ fn unknown_surfaces_with_every_kind_calibrate() {
         let found =
             calibrate(&surface, Some(&Perturbation::default()), &MeasureOptions::default(), at, window);
         told(&format!("{name}, unknown"), &found);
-        if !right(name, &found, true) {
+        if !right(name, &found) {
             wrong.push(name);
         }
     }

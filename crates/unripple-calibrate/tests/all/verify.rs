@@ -264,6 +264,6 @@ fn what_a_model_misses_beside_a_rim_is_no_other_place_and_no_other_gain() {
     println!("{}", said(&found));
     assert!(found.doubts.is_empty(), "{}", said(&found));
     assert!(found.points.iter().all(|point| point.correction.is_none()), "{}", said(&found));
-    // A grain of truth is left to them: one in twenty may be told to be a little off.
+    // One in twenty may still be told to be a little off.
     assert!(found.notes.len() <= rim.len() / 20, "{}", said(&found));
 }
