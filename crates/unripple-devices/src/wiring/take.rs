@@ -61,24 +61,21 @@ pub(super) fn record(
     // The first silence lets a device settle.
     bench.listen(bench.pause, None)?;
     let levels = |takes: &[Vec<f64>]| takes.iter().map(|take| rms(take)).collect::<Vec<f64>>();
-    let silence = levels(&bench.mean(None, 1)?);
+    let silence = levels(&bench.listen(bench.blocks, None)?);
     let mut heard: Vec<Vec<f64>> = Vec::with_capacity(outputs * inputs);
     for output in 0..outputs {
         heard.extend(bench.mean(Some(output), 1)?);
     }
     let mut noise: Vec<f64> = (0..outputs).flat_map(|_| silence.iter().copied()).collect();
-    let above = |output: usize, input: usize, noise: f64| {
-        let take = &heard[output * inputs + input];
-        take.chunks_exact(window.max(1)).map(rms).fold(0.0, f64::max) > noise * silence[input]
+    let loudest = |take: &Vec<f64>| take.chunks_exact(window.max(1)).map(rms).fold(0.0, f64::max);
+    let above: Vec<f64> = heard.iter().zip(&noise).map(|(take, noise)| loudest(take) / noise).collect();
+    let unsure = |pairs: &mut dyn Iterator<Item = usize>| {
+        let most = pairs.map(|pair| above[pair]).fold(0.0, f64::max);
+        most > PERHAPS && most <= ABOVE_NOISE
     };
-    let unsure = |pairs: &[(usize, usize)]| {
-        let any = |noise: f64| pairs.iter().any(|(output, input)| above(*output, *input, noise));
-        any(PERHAPS) && !any(ABOVE_NOISE)
-    };
-    let by_input = |input: usize| (0..outputs).map(|output| (output, input)).collect::<Vec<_>>();
-    let by_output = |output: usize| (0..inputs).map(|input| (output, input)).collect::<Vec<_>>();
-    let all = (0..inputs).any(|input| unsure(&by_input(input)));
-    let again: Vec<usize> = (0..outputs).filter(|output| all || unsure(&by_output(*output))).collect();
+    let all = (0..inputs).any(|input| unsure(&mut (input..above.len()).step_by(inputs)));
+    let again: Vec<usize> =
+        (0..outputs).filter(|output| all || unsure(&mut (output * inputs..(output + 1) * inputs))).collect();
     if !again.is_empty() {
         let silence = levels(&bench.mean(None, AGAIN)?);
         for output in again {
