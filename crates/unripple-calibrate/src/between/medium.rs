@@ -88,4 +88,9 @@ impl Waves {
         }
         ring + line.nugget * (self.bessel.disc(line.stray_k * distance) - ring)
     }
+
+    /// By how much that covariance grows with the share of stray waves.
+    pub fn stray(&self, line: &SpectralLine, distance: f64) -> f64 {
+        self.bessel.disc(line.stray_k * distance) - self.bessel.ring(line.k * distance)
+    }
 }

@@ -7,6 +7,7 @@ mod neighbourhood;
 mod options;
 mod plan;
 mod spectra;
+mod stray;
 mod system;
 mod triangles;
 mod uncertainty;

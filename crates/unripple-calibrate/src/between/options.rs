@@ -54,14 +54,15 @@ pub struct BetweenOptions {
 }
 
 impl Default for BetweenOptions {
-    /// Kriging, with noise at -50 dB, gain errors of 0.5 % rms and no errors of position.
+    /// Kriging, with noise at -50 dB, gain errors of 0.5 % rms and no errors of position. A hundredth of stray waves is what surfaces with
+    /// masses and uneven tension have; a thousandth makes errors beside masses of 20 mg a quarter larger, and is no better without them.
     fn default() -> Self {
         Self {
             interpolation: Interpolation::Kernel,
             noise: 3.16e-3,
             gain_error: 5e-3,
             position_error: 0.0,
-            nugget: 1e-3,
+            nugget: 1e-2,
             top: 1.1,
             most: 500,
         }

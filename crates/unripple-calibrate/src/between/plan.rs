@@ -4,7 +4,8 @@ use super::medium::{SpectralLine, Waves};
 use super::neighbourhood::{Patches, nearest};
 use super::options::{BetweenOptions, Interpolation};
 use super::spectra::Spectra;
-use super::system::{System, distances};
+use super::stray::StrayTrial;
+use super::system::distances;
 use super::triangles::Triangles;
 use super::uncertainty::Uncertainty;
 use crate::CalibrateError;
@@ -128,7 +129,8 @@ impl<'r> Between<'r> {
     }
 
     /// Expected error of the interpolated responses at a place (m): the kriging variance, or for the simpler methods that of
-    /// their fixed weights.
+    /// their fixed weights. For the former as large a share of stray waves is assumed as explains by how much the nearest points, each
+    /// left out in turn, differ from what the others predict: beside a stray mass it is much larger than elsewhere.
     ///
     /// # Errors
     /// As [`Between::at`], and [`CalibrateError::Singular`] if the covariance matrix is not positive definite.
@@ -138,22 +140,23 @@ impl<'r> Between<'r> {
         let nodes: Vec<usize> = (0..NODES).map(|i| i * (bins - 1) / (NODES - 1)).collect();
         let witnesses = nearest(&self.responses.points, place, WITNESSES);
         let points: Vec<Point> = witnesses.iter().map(|i| self.responses.points[*i]).collect();
-        let apart = distances(&points);
+        let (apart, away) =
+            (distances(&points), points.iter().map(|p| p.distance(place)).collect::<Vec<_>>());
         let weights = self.weights(place);
-        let share_at = |node: usize| -> Result<f64, CalibrateError> {
-            let line = self.line(node);
-            if let Some(weights) = &weights {
-                return Ok(self.plain_share(&line, weights, place));
-            }
-            let hz = node as f64 * self.spectra.step;
-            let system = System::factor(&self.waves, &line, &apart, points.len())
-                .ok_or(CalibrateError::Singular { points: points.len(), hz })?;
-            let row: Vec<f64> =
-                points.iter().map(|p| self.waves.covariance(&line, p.distance(place))).collect();
-            Ok((1.0 - system.explained(&row)).max(0.0))
+        if let Some(weights) = &weights {
+            let known: Vec<f64> =
+                nodes.iter().map(|node| self.plain_share(&self.line(*node), weights, place)).collect();
+            return Ok(self.uncertainty(&nodes, &known));
+        }
+        let trial = |node: &usize| -> Result<StrayTrial, CalibrateError> {
+            let (line, reach) = (self.line(*node), self.around(*node));
+            let values = self.spectra.normalised(*node, reach, &witnesses, 1.0 + line.error);
+            let hz = *node as f64 * self.spectra.step;
+            StrayTrial::of(&self.waves, &line, &apart, &away, &values)
+                .ok_or(CalibrateError::Singular { points: points.len(), hz })
         };
-        let known = nodes.par_iter().map(|node| share_at(*node)).collect::<Result<Vec<f64>, _>>()?;
-        Ok(self.uncertainty(&nodes, &known))
+        let trials = nodes.par_iter().map(trial).collect::<Result<Vec<_>, _>>()?;
+        Ok(self.uncertainty(&nodes, &StrayTrial::shares(&trials, self.waves.lines[0].nugget)))
     }
 
     fn check(&self, place: usize, at: Point) -> Result<(), CalibrateError> {
@@ -193,13 +196,17 @@ impl<'r> Between<'r> {
         }
     }
 
+    /// The bins around one over which powers and errors are averaged.
+    fn around(&self, bin: usize) -> std::ops::Range<usize> {
+        let reach = self.waves.lines.len() / NODES + 6;
+        bin.saturating_sub(reach)..(bin + reach).min(self.waves.lines.len())
+    }
+
     /// Covariance model of a bin, its relative error averaged over the bins around: the power of a single bin mostly tells how
     /// far it is from a resonance.
     fn line(&self, bin: usize) -> SpectralLine {
-        let reach = self.waves.lines.len() / NODES + 6;
-        let around = bin.saturating_sub(reach)..(bin + reach).min(self.waves.lines.len());
         let (mut errors, mut powers) = (0.0, f64::MIN_POSITIVE);
-        for bin in around {
+        for bin in self.around(bin) {
             let power = self.spectra.power(bin);
             errors += power * self.waves.lines[bin].error;
             powers += power;

@@ -5,8 +5,10 @@ use rayon::prelude::*;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::f64::consts::PI;
+use std::ops::Range;
 use std::sync::Arc;
 use unripple_core::{SampledResponses, require};
+use unripple_linalg::Mat;
 
 /// Turns responses into real spectra and back.
 ///
@@ -130,6 +132,21 @@ impl Spectra {
     pub fn power(&self, bin: usize) -> f64 {
         let row = &self.powers[bin * self.actuators..][..self.actuators];
         row.iter().sum::<f64>() / self.actuators as f64
+    }
+
+    /// Values of a bin at some points, points x actuators, of the mean square `square` for each actuator over all points and the bins
+    /// `around` it.
+    pub fn normalised(&self, bin: usize, around: Range<usize>, points: &[usize], square: f64) -> Mat<f64> {
+        let (bins, width) = (around.len() as f64, self.values.len() / self.bins());
+        let unit: Vec<f64> = (0..self.actuators)
+            .map(|a| {
+                let power = around.clone().map(|bin| self.powers[bin * self.actuators + a]).sum::<f64>();
+                (square * bins / power.max(f64::MIN_POSITIVE)).sqrt()
+            })
+            .collect();
+        Mat::from_fn(points.len(), self.actuators, |p, a| {
+            unit[a] * self.values[bin * width + points[p] * self.actuators + a]
+        })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::medium::{SpectralLine, Waves};
 use unripple_core::Point;
-use unripple_linalg::{CholeskyInPlace, Mat, MatMut, MatRef, product};
+use unripple_linalg::{CholeskyInPlace, Mat, MatMut};
 
 /// Distances between points, the lower triangle row by row, the diagonal left out.
 pub(crate) fn distances(points: &[Point]) -> Vec<f64> {
@@ -33,13 +33,5 @@ impl System {
     /// Solves (K + N) x = b for each column b of `columns`, in place.
     pub fn solve(&self, columns: MatMut<'_, f64>) {
         self.covariance.solve(columns);
-    }
-
-    /// Share of a response's power at one place that the measured points explain: kᵀ (K + N)⁻¹ k, where `row` is k, the covariances
-    /// of that place with the points.
-    pub fn explained(&self, row: &[f64]) -> f64 {
-        let mut column = Mat::from_fn(row.len(), 1, |i, _| row[i]);
-        self.solve(column.as_mut());
-        product(MatRef::from_row_major_slice(row, 1, row.len()), column.as_ref())[(0, 0)]
     }
 }
