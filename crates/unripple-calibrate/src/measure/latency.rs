@@ -5,7 +5,7 @@ use super::tones::{Heard, Part, Tone, tones};
 use crate::CalibrateError;
 use crate::signals::{Band, Delay};
 use rayon::prelude::*;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use unripple_dsp::{DspError, median};
 use unripple_linalg::c64;
 use unripple_physics::Sensor;
@@ -40,6 +40,10 @@ const IN_CELL: usize = 8;
 /// Largest error of the first estimate, in periods of the band's top: half a period away, a signal looks as if its sign were reversed.
 const WITHIN: f64 = 0.75;
 
+/// Lengths of the model's responses, in periods of the band's top, with which the first estimate is made besides the whole ones. Where the
+/// surface is not as its file says, the model's tones soon are out of step with those recorded: shorter ones are like them to the end.
+const BEGINNINGS: [f64; 4] = [64.0, 32.0, 16.0, 8.0];
+
 /// Smallest share of the sums over cells of the band that must agree on a latency for it to count.
 const AGREED: f64 = 0.3;
 
@@ -52,7 +56,8 @@ const AGREED: f64 = 0.3;
 /// model. The phase of a circuit is known from the surface file and removed. Damping by voltage-driven coils, and masses without
 /// damping, shift the phases of tones; this is corrected, cell by cell of the band, by the phases of the model's own tones.
 ///
-/// The uncertainty is half the interquartile range of the estimates from single actuators.
+/// The uncertainty is half the interquartile range of the estimates from single actuators, or of the first, rough ones where these differ
+/// by more than tones can correct.
 ///
 /// # Errors
 /// [`CalibrateError::Recording`] if no actuator has a signal; [`CalibrateError::Dsp`] for a band out of range.
@@ -107,7 +112,9 @@ pub fn latency(
     let Some(late) = of(&whole) else { return Ok([coarse, disagreement(&delays)]) };
     let mut alone: Vec<f64> = whole.iter().filter_map(|a| of(&[*a])).collect();
     alone.sort_unstable_by(f64::total_cmp);
-    Ok([coarse + late, disagreement(&alone)])
+    // Tones correct the first estimate by a period alone: if that one is uncertain by more, so is the latency.
+    let first = disagreement(&delays);
+    Ok([coarse + late, disagreement(&alone).max(if first > most { first } else { 0.0 })])
 }
 
 /// Half the interquartile range of sorted values.
@@ -121,7 +128,8 @@ fn disagreement(sorted: &[f64]) -> f64 {
 ///
 /// From the response of each actuator at itself; where voltage-driven coils or the housings of exciters damp the surface, from responses at
 /// other actuators, since the beginning of such an actuator's response at itself is mostly strongly damped motion that no mode of the band
-/// describes.
+/// describes. The model's responses are cut off where they are then most like the recorded ones: all of a response of another surface may be
+/// most like it at any delay.
 fn roughly(
     heard: &[Vec<Vec<f64>>],
     some: &[usize],
@@ -129,32 +137,52 @@ fn roughly(
     (lead, rate): (usize, f64),
     band: Band,
 ) -> Result<(Vec<f64>, Vec<f64>), CalibrateError> {
-    let (mut delays, mut signs) = (Vec::new(), vec![1.0; some.len()]);
     let away = usize::from(model.closed() || highest_housing(model) > 0.0);
-    for b in 0..some.len() {
-        let a = (b + away) % some.len();
-        let found = &heard[b][a];
-        let mut said = vec![0.0; lead];
-        said.extend(model.response(some[b], some[a], found.len().saturating_sub(lead)));
-        band.limit(&mut said, rate)?;
-        match Delay::between(found, &said, rate, band) {
-            Ok(delay) => {
-                delays.push(delay.samples);
-                signs[b] = if delay.inverted && away == 0 { -1.0 } else { 1.0 };
+    let pairs: Vec<(&[f64], Vec<f64>)> = (0..some.len())
+        .map(|b| {
+            let a = (b + away) % some.len();
+            let found = &heard[b][a];
+            (&found[..], model.response(some[b], some[a], found.len().saturating_sub(lead)))
+        })
+        .collect();
+    let lengths = [None].into_iter().chain(BEGINNINGS.map(|periods| Some(periods * rate / band.high[0])));
+    let mut best: Option<(f64, Vec<f64>, Vec<f64>)> = None;
+    for length in lengths {
+        let (mut delays, mut signs, mut alike) = (Vec::new(), vec![1.0; some.len()], 0.0);
+        for ((found, said), sign) in pairs.iter().zip(&mut signs) {
+            let mut known = vec![0.0; lead];
+            known.extend(beginning(said, length));
+            band.limit(&mut known, rate)?;
+            match Delay::between(found, &known, rate, band) {
+                Ok(delay) => {
+                    delays.push(delay.samples);
+                    alike += delay.correlation;
+                    *sign = if delay.inverted && away == 0 { -1.0 } else { 1.0 };
+                }
+                // A silent actuator gives no estimate; others may.
+                Err(_) => *sign = 0.0,
             }
-            // A silent actuator gives no estimate; others may.
-            Err(_) => signs[b] = 0.0,
+        }
+        delays.sort_unstable_by(f64::total_cmp);
+        if !delays.is_empty() && best.as_ref().is_none_or(|(most, _, _)| alike > *most) {
+            best = Some((alike, delays, signs));
         }
     }
-    delays.sort_unstable_by(f64::total_cmp);
-    if delays.is_empty() {
-        return Err(CalibrateError::Recording {
-            what: "latency".into(),
-            expected: "actuators whose own sensor receives their drive".into(),
-            found: "silence".into(),
-        });
-    }
-    Ok((delays, signs))
+    let found = best.map(|(_, delays, signs)| (delays, signs));
+    found.ok_or_else(|| CalibrateError::Recording {
+        what: "latency".into(),
+        expected: "actuators whose own sensor receives their drive".into(),
+        found: "silence".into(),
+    })
+}
+
+/// The first `length` samples of a response, faded out; all of it without a length.
+fn beginning(response: &[f64], length: Option<f64>) -> impl Iterator<Item = f64> {
+    let count = length.map_or(response.len(), |length| length as usize);
+    response.iter().take(count).enumerate().map(move |(i, x)| match length {
+        Some(length) => x * (0.5 + 0.5 * (PI * i as f64 / length).cos()),
+        None => *x,
+    })
 }
 
 /// Parts of the band, each with about as many tones as can be resolved at once, and the number of tones that the model has in each with

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use unripple_calibrate::measure::{Hearing, latency};
 use unripple_calibrate::signals::{Band, shift};
-use unripple_core::{ActuatorKind, CoilDrive, Edge, Edges, Point, Responses, Surface};
+use unripple_core::{ActuatorKind, CoilDrive, Decay, Edge, Edges, Point, Responses, Surface};
 use unripple_physics::design::papers_surface;
 use unripple_physics::{ResponseOptions, responses};
 
@@ -110,6 +110,20 @@ fn a_film_that_dies_away_sooner_or_later_is_as_late() {
         let found = latency(&truth.heard(&film, 16_000, -3.21, band), &model, LEAD, RATE, band).unwrap();
         println!("decay {decay} s: {found:.4?}");
         assert!((found[0] + 3.21).abs() < 0.05, "{decay}: {found:?}");
+    }
+}
+
+/// After some tens of periods the tones of another film are out of step with those of the file.
+#[test]
+fn a_film_that_is_far_from_its_file_is_as_late() {
+    let mut film = film(1500.0);
+    film.sheet.decay = Decay::Time(0.3);
+    let (model, band) = (model(&film), Band::within(60.0, 1800.0));
+    for tension in [205.0, 210.0, 225.0, 250.0] {
+        let truth = Truth { tension, decay: 0.3, off: 5e-4, top: 2200.0 };
+        let found = latency(&truth.heard(&film, 16_000, 240.12, band), &model, LEAD, RATE, band).unwrap();
+        println!("{tension} N/m: {found:.4?}");
+        assert!((found[0] - 240.12).abs() < 0.05, "{tension}: {found:?}");
     }
 }
 
