@@ -267,7 +267,9 @@ impl Takes {
             "expected {} to receive the sweeps of play.wav with a correlation of {LEAST} or more, found {likeness:.2}",
             names.join(", ")
         );
-        Fault::new(&wanted.file, why, "record while play.wav plays, channels in the order of the plan")
+        let hint = "record while play.wav plays, channels in the order of the plan; if it did play, samples were lost, the clocks are far \
+                    apart, or the latency jitters from sweep to sweep: use one audio interface for both, with larger buffers";
+        Fault::new(&wanted.file, why, hint)
     }
 }
 
