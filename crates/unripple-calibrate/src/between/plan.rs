@@ -156,7 +156,7 @@ impl<'r> Between<'r> {
                 .ok_or(CalibrateError::Singular { points: points.len(), hz })
         };
         let trials = nodes.par_iter().map(trial).collect::<Result<Vec<_>, _>>()?;
-        Ok(self.uncertainty(&nodes, &StrayTrial::shares(&trials, self.waves.lines[0].nugget)))
+        Ok(self.uncertainty(&nodes, &StrayTrial::shares(&trials)))
     }
 
     fn check(&self, place: usize, at: Point) -> Result<(), CalibrateError> {

@@ -1,7 +1,7 @@
 //! Expected error of kriging at one place, with as large a share of stray waves as the nearest points show when each is left out.
 
 use super::medium::{SpectralLine, Waves};
-use super::system::System;
+use super::system::{System, lower_triangle};
 use unripple_linalg::{Mat, product};
 
 /// Number of nearest points that are predicted from the others. With half as many chance decides; more lie too far away to tell of the
@@ -13,9 +13,11 @@ const LEFT_OUT: usize = 12;
 const BESIDE: usize = 2;
 
 /// What kriging is expected to leave at one frequency, at a place and at the points around, and what it does leave at those.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct StrayTrial {
-    /// Expected power of the error at the place over the field's, with the nugget that the weights are computed with.
+    /// Share of stray waves with which the weights are computed.
+    nugget: f64,
+    /// Expected power of the error at the place over the field's, with that share.
     error: f64,
     /// By how much it grows with the share of stray waves.
     slope: f64,
@@ -42,42 +44,41 @@ impl StrayTrial {
     ) -> Option<Self> {
         let (points, some) = (away.len(), LEFT_OUT.min(away.len()));
         let system = System::factor(waves, line, apart, points)?;
-        let stray = |i: usize, j: usize| waves.stray(line, apart[i * (i - 1) / 2 + j]);
-        let stray = Mat::from_fn(points, points, |i, j| if i == j { 0.0 } else { stray(i.max(j), i.min(j)) });
+        // D is symmetric with 0 on its diagonal: wᵀ D w is twice that of its lower triangle.
+        let stray = lower_triangle(apart, points, |distance| waves.stray(line, distance));
+        let covariances: Vec<f64> = away.iter().map(|distance| waves.covariance(line, *distance)).collect();
         let mut weights = Mat::from_fn(points, some + 1, |i, j| match j {
-            0 => waves.covariance(line, away[i]),
+            0 => covariances[i],
             j => f64::from(u8::from(i + 1 == j)),
         });
-        let covariances: Vec<f64> = (0..points).map(|i| weights[(i, 0)]).collect();
         system.solve(weights.as_mut());
         let (strays, found) =
             (product(stray.as_ref(), weights.as_ref()), product(weights.transpose(), values.as_ref()));
-        let dot = |j: usize| (0..points).map(|i| weights[(i, j)] * strays[(i, j)]).sum::<f64>();
-        let at = |row: &dyn Fn(usize) -> f64| (0..points).map(|i| weights[(i, 0)] * row(i)).sum::<f64>();
-        let mut trial = Self {
-            error: 1.0 - at(&|i| covariances[i]),
-            slope: dot(0) - 2.0 * at(&|i| waves.stray(line, away[i])),
-            ..Self::default()
-        };
+        let among = |j: usize| 2.0 * (0..points).map(|i| weights[(i, j)] * strays[(i, j)]).sum::<f64>();
+        let mut trial = Self { nugget: line.nugget, error: 1.0, slope: among(0), off: 0.0, off_slope: 0.0 };
+        for i in 0..points {
+            trial.error -= weights[(i, 0)] * covariances[i];
+            trial.slope -= 2.0 * weights[(i, 0)] * waves.stray(line, away[i]);
+        }
         for i in 0..some {
             let scale = 1.0 / (weights[(i, i + 1)] * some as f64);
             let squares: f64 = (0..values.ncols()).map(|a| found[(i + 1, a)].powi(2)).sum();
             trial.off += scale * squares / values.ncols() as f64;
-            trial.off_slope += scale * dot(i + 1);
+            trial.off_slope += scale * among(i + 1);
         }
         Some(trial)
     }
 
     /// Expected power of the error over the field's at the frequencies of `trials`, with the share of stray waves, 0 or more, with which
-    /// the points around are off by as much as expected; `nugget` is the one that the weights are computed with.
-    pub fn shares(trials: &[Self], nugget: f64) -> Vec<f64> {
+    /// the points around are off by as much as expected.
+    pub fn shares(trials: &[Self]) -> Vec<f64> {
         let near = |n: usize| &trials[n.saturating_sub(BESIDE)..(n + BESIDE + 1).min(trials.len())];
         // Least squares: a frequency at which the expected squares hardly grow with the share tells little of it.
         let more = |n: usize| {
             let sum =
                 |of: fn(&Self) -> f64| near(n).iter().map(|trial| trial.off_slope * of(trial)).sum::<f64>();
             let (off, slope) = (sum(|trial| trial.off - 1.0), sum(|trial| trial.off_slope));
-            if slope > 0.0 { (off / slope).max(-nugget) } else { 0.0 }
+            if slope > 0.0 { (off / slope).max(-trials[n].nugget) } else { 0.0 }
         };
         (0..trials.len()).map(|n| (trials[n].error + more(n) * trials[n].slope).clamp(0.0, 1.0)).collect()
     }
