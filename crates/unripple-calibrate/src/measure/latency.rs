@@ -40,9 +40,9 @@ const IN_CELL: usize = 8;
 /// Largest error of the first estimate, in periods of the band's top: half a period away, a signal looks as if its sign were reversed.
 const WITHIN: f64 = 0.75;
 
-/// Lengths of the model's responses, in periods of the band's top, with which the first estimate is made besides the whole ones. Where the
+/// Lengths of the model's responses, in periods of the band's top, with which the first estimate is tried, the whole ones first. Where the
 /// surface is not as its file says, the model's tones soon are out of step with those recorded: shorter ones are like them to the end.
-const BEGINNINGS: [f64; 4] = [64.0, 32.0, 16.0, 8.0];
+const BEGINNINGS: [f64; 5] = [f64::INFINITY, 64.0, 32.0, 16.0, 8.0];
 
 /// Smallest share of the sums over cells of the band that must agree on a latency for it to count.
 const AGREED: f64 = 0.3;
@@ -113,8 +113,8 @@ pub fn latency(
     let mut alone: Vec<f64> = whole.iter().filter_map(|a| of(&[*a])).collect();
     alone.sort_unstable_by(f64::total_cmp);
     // Tones correct the first estimate by a period alone: if that one is uncertain by more, so is the latency.
-    let first = disagreement(&delays);
-    Ok([coarse + late, disagreement(&alone).max(if first > most { first } else { 0.0 })])
+    let (first, own) = (disagreement(&delays), disagreement(&alone));
+    Ok([coarse + late, if first > most { own.max(first) } else { own }])
 }
 
 /// Half the interquartile range of sorted values.
@@ -145,44 +145,46 @@ fn roughly(
             (&found[..], model.response(some[b], some[a], found.len().saturating_sub(lead)))
         })
         .collect();
-    let lengths = [None].into_iter().chain(BEGINNINGS.map(|periods| Some(periods * rate / band.high[0])));
-    let mut best: Option<(f64, Vec<f64>, Vec<f64>)> = None;
-    for length in lengths {
-        let (mut delays, mut signs, mut alike) = (Vec::new(), vec![1.0; some.len()], 0.0);
-        for ((found, said), sign) in pairs.iter().zip(&mut signs) {
+    let mut best: Option<Rough> = None;
+    for periods in BEGINNINGS {
+        let mut rough = Rough { delays: Vec::new(), signs: Vec::new(), alike: 0.0 };
+        for (found, said) in &pairs {
             let mut known = vec![0.0; lead];
-            known.extend(beginning(said, length));
+            known.extend(beginning(said, periods * rate / band.high[0]));
             band.limit(&mut known, rate)?;
-            match Delay::between(found, &known, rate, band) {
-                Ok(delay) => {
-                    delays.push(delay.samples);
-                    alike += delay.correlation;
-                    *sign = if delay.inverted && away == 0 { -1.0 } else { 1.0 };
-                }
-                // A silent actuator gives no estimate; others may.
-                Err(_) => *sign = 0.0,
-            }
+            // A silent actuator gives no estimate; others may.
+            let delay = Delay::between(found, &known, rate, band).ok();
+            rough.signs.push(delay.map_or(0.0, |delay| if delay.inverted && away == 0 { -1.0 } else { 1.0 }));
+            rough.delays.extend(delay.map(|delay| delay.samples));
+            rough.alike += delay.map_or(0.0, |delay| delay.correlation);
         }
-        delays.sort_unstable_by(f64::total_cmp);
-        if !delays.is_empty() && best.as_ref().is_none_or(|(most, _, _)| alike > *most) {
-            best = Some((alike, delays, signs));
+        if !rough.delays.is_empty() && best.as_ref().is_none_or(|best| rough.alike > best.alike) {
+            best = Some(rough);
         }
     }
-    let found = best.map(|(_, delays, signs)| (delays, signs));
-    found.ok_or_else(|| CalibrateError::Recording {
+    let mut best = best.ok_or_else(|| CalibrateError::Recording {
         what: "latency".into(),
         expected: "actuators whose own sensor receives their drive".into(),
         found: "silence".into(),
-    })
+    })?;
+    best.delays.sort_unstable_by(f64::total_cmp);
+    Ok((best.delays, best.signs))
 }
 
-/// The first `length` samples of a response, faded out; all of it without a length.
-fn beginning(response: &[f64], length: Option<f64>) -> impl Iterator<Item = f64> {
-    let count = length.map_or(response.len(), |length| length as usize);
-    response.iter().take(count).enumerate().map(move |(i, x)| match length {
-        Some(length) => x * (0.5 + 0.5 * (PI * i as f64 / length).cos()),
-        None => *x,
-    })
+/// First estimates with one length of the model's responses.
+struct Rough {
+    /// Delays in samples, of actuators that are not silent.
+    delays: Vec<f64>,
+    /// Sign of each actuator, 0 if it is silent.
+    signs: Vec<f64>,
+    /// Sum of the correlations at those delays.
+    alike: f64,
+}
+
+/// The first `length` samples of a response, faded out.
+fn beginning(response: &[f64], length: f64) -> impl Iterator<Item = f64> {
+    let fade = move |i: usize| 0.5 + 0.5 * (PI * i as f64 / length).cos();
+    response.iter().take(length as usize).enumerate().map(move |(i, x)| x * fade(i))
 }
 
 /// Parts of the band, each with about as many tones as can be resolved at once, and the number of tones that the model has in each with
