@@ -15,7 +15,8 @@
 //!
 //! [`Mat`] and its view [`MatRef`] are the matrices, [`product()`] multiplies two of them, and [`multiply()`] does so into a third with a
 //! choice of threads. [`Cholesky`] and [`Lu`] solve linear systems, [`symmetric()`] and [`general()`] eigenvalue problems, [`singular()`]
-//! gives singular values and vectors. [`sparse`] factors large symmetric matrices most of whose entries are zero.
+//! gives singular values and vectors. [`non_negative()`] minimises a quadratic form over numbers that are not negative. [`sparse`] factors
+//! large symmetric matrices most of whose entries are zero.
 //!
 //! ```
 //! use unripple_linalg::{Mat, mat, norm, product, symmetric};
@@ -33,6 +34,7 @@ mod eigen;
 mod eigenpairs;
 mod instances;
 mod lu;
+mod non_negative;
 mod number;
 mod product;
 mod singular;
@@ -43,6 +45,7 @@ pub use eigen::{exact_symmetric, general, symmetric};
 pub use eigenpairs::General;
 pub use faer::{Accum, Col, ColMut, ColRef, Mat, MatMut, MatRef, Par, RowRef, Scale, c64, mat};
 pub use lu::Lu;
+pub use non_negative::non_negative;
 pub use number::{Entry, Number};
 pub use product::{
     add_square, adjoint_times, multiply, norm, product, sparse_times, squared_norm, times_adjoint,

@@ -2,7 +2,6 @@
 //! displacement.
 
 mod background;
-mod ceiling;
 mod control;
 mod lines;
 mod options;

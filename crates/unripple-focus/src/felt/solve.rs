@@ -1,11 +1,10 @@
 //! Least squares with levels held exactly and bounds at control points.
 
 use super::background::dot;
-use super::ceiling::multipliers;
 use super::control::Control;
 use super::watch::{Sample, Watch};
 use crate::FocusError;
-use unripple_linalg::{Mat, MatRef, solve_upper_alone};
+use unripple_linalg::{Mat, MatRef, non_negative, solve_upper_alone};
 
 /// By how much of the ceiling the worst spot may still be above it: 0.26 dB. Halved, about one more round
 /// finds what is left.
@@ -164,7 +163,7 @@ impl Bounds {
         let form = |i: usize, j: usize| {
             products[i.max(j)][i.min(j)] + 1.0 / worst + if i == j { rounding } else { 0.0 }
         };
-        self.multipliers = multipliers(form, &self.slope, std::mem::take(&mut self.multipliers));
+        self.multipliers = non_negative(form, &self.slope, std::mem::take(&mut self.multipliers));
     }
 }
 

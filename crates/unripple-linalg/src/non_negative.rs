@@ -1,17 +1,24 @@
 //! A non-negative quadratic programme by an active-set method.
 
-use unripple_linalg::{Cholesky, Mat};
+use crate::{Cholesky, Mat};
 
-/// Slopes below this share of the largest count as zero: above rounding. With twice this value, multipliers stop a little
+/// Slopes below this share of the largest count as zero: above rounding. With twice this value, the descent stops a little
 /// earlier.
 const LEVEL: f64 = 1e-9;
 
-/// The λ ≥ 0, one number per bound, that minimises ½ λᵀQλ − bᵀλ for a positive definite Q, from a first
-/// guess: an active set as in Lawson and Hanson (1974), Solving Least Squares Problems, chapter 23.
+/// The numbers λ ≥ 0 that minimise ½ λᵀQλ − bᵀλ for a positive definite Q, from a first guess ≥ 0: an
+/// active set as in Lawson and Hanson (1974), Solving Least Squares Problems, chapter 23.
 ///
-/// `form` gives the elements of Q. Where rounding would let the set go round in circles, what was reached is kept: every λ ≥ 0
-/// is a lower bound of the ceiling.
-pub(crate) fn multipliers(form: impl Fn(usize, usize) -> f64, slope: &[f64], guess: Vec<f64>) -> Vec<f64> {
+/// `form` gives the elements of Q. Where rounding would let the set go round in circles, what was reached is kept, which is λ ≥ 0 too.
+///
+/// ```
+/// use unripple_linalg::{mat, non_negative};
+///
+/// let form = mat![[2.0, 1.0], [1.0, 2.0_f64]];
+/// let found = non_negative(|i, j| form[(i, j)], &[1.0, -1.0], vec![0.0; 2]);
+/// assert_eq!(found, [0.5, 0.0]);
+/// ```
+pub fn non_negative(form: impl Fn(usize, usize) -> f64, slope: &[f64], guess: Vec<f64>) -> Vec<f64> {
     let count = slope.len();
     let mut found = Descent { form, slope, value: guess, free: Vec::new() };
     found.free = (0..count).filter(|i| found.value[*i] > 0.0).collect();
@@ -84,7 +91,7 @@ mod tests {
                 rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum::<f64>() + if i == j { 0.01 } else { 0.0 }
             };
             let guess = guess[..n].iter().map(|g| g.max(0.0)).collect();
-            let found = multipliers(form, &slope[..n], guess);
+            let found = non_negative(form, &slope[..n], guess);
             for i in 0..n {
                 let gradient = (0..n).map(|j| form(i, j) * found[j]).sum::<f64>() - slope[i];
                 prop_assert!(found[i] >= 0.0);
