@@ -4,6 +4,7 @@ mod account;
 mod apart;
 mod campaign;
 mod channel;
+mod force;
 mod heard;
 mod hearing;
 mod knock;

@@ -3,7 +3,8 @@
 
 use super::{Channel, MeasureOptions, Rig, TapOptions, Wires, record, tapped};
 use crate::CalibrateError;
-use crate::signals::{Band, Quality, shift};
+use crate::fit::Fitted;
+use crate::signals::{Band, Quality, shift, snr_db};
 use unripple_core::{Layout, ModalResponses, Point, Surface};
 use unripple_physics::sample;
 
@@ -14,6 +15,8 @@ pub struct TapSession {
     tap: TapOptions,
     sensors: Vec<usize>,
     model: ModalResponses,
+    /// Gain of each actuator's sensor over that of its drive, as far as it is known.
+    gains: Vec<f64>,
     band: Band,
     rate: f64,
     heard: usize,
@@ -32,7 +35,6 @@ impl TapSession {
         wires: &Wires,
         model: ModalResponses,
         options: &MeasureOptions,
-        tap: TapOptions,
     ) -> Result<Self, CalibrateError> {
         let sweep = options.sweep(surface, layout)?;
         if wires.sensors.len() != surface.actuators.len() {
@@ -46,13 +48,23 @@ impl TapSession {
         let samples = (2.0 * options.settle_time * sweep.rate) as usize;
         Ok(Self {
             options: options.clone(),
-            tap,
+            tap: TapOptions::for_unfitted(),
             sensors: wires.sensors.clone(),
             model,
+            gains: vec![1.0; surface.actuators.len()],
             band: Band::within(sweep.from, sweep.to),
             rate: sweep.rate,
             heard: samples.div_ceil(layout.block) * layout.block,
         })
+    }
+
+    /// The same plan with a model that was fitted to the responses between actuators. It knows masses on the sheet, holds for longer, so
+    /// that the bounces of taps are found, and tells the gains of sensors from those of drives.
+    #[must_use]
+    pub fn by_fitted(self, fitted: &Fitted) -> Self {
+        let gains = fitted.actuators.iter().map(|actuator| actuator.sense.value / actuator.drive.value);
+        let (model, gains) = (fitted.beyond().clone(), gains.collect());
+        Self { model, gains, tap: TapOptions::default(), ..self }
     }
 
     /// Has a place tapped, as often as there are repeats, and finds the responses. `at` is in m, `attempt` counts the
@@ -73,29 +85,40 @@ impl TapSession {
             rig.ready(number, at, attempt)?;
             rig.tap(number, at, attempt)?;
             let heard = record(rig.device(), &[], &[], &self.sensors, self.heard)?;
-            taps.push(heard.iter().map(|sound| shift(sound, -self.options.latency)).collect::<Vec<_>>());
+            let as_drive = |(sound, gain): (&Vec<f64>, &f64)| {
+                let mut sound = shift(sound, -self.options.latency);
+                sound.iter_mut().for_each(|x| *x /= gain);
+                sound
+            };
+            taps.push(heard.iter().zip(&self.gains).map(as_drive).collect::<Vec<_>>());
         }
         let samples = self.options.samples(self.rate);
-        let early = (self.tap.early * self.rate) as usize + (2.0 * self.tap.length * self.rate) as usize;
+        let early = ((self.tap.span() + self.tap.early) * self.rate) as usize;
         let known = sample(&self.model, &[at], early.max(1));
         let model: Vec<Vec<f64>> = (0..self.sensors.len())
             .map(|actuator| known.response(actuator, 0).iter().map(|h| f64::from(*h)).collect())
             .collect();
         let found = tapped(&taps, &model, samples, self.rate, self.band, &self.tap)?;
-        let noise = |sound: &[f64]| {
-            let tail = sound.len() / 20;
-            sound[sound.len() - tail..].to_vec()
-        };
-        let quality = found.responses.iter().zip(&taps[0]).map(|(response, sound)| {
+        let quality = found.responses.iter().enumerate().map(|(sensor, response)| {
             let own = Quality::of(response, &[], self.rate)?;
-            let peak = sound.iter().map(|x| x.abs()).fold(0.0, f64::max);
-            let start = sound.iter().position(|x| x.abs() >= 0.1 * peak).unwrap_or(0);
-            let loud = &sound[start..(start + samples).min(sound.len())];
-            let snr_db = crate::signals::snr_db(loud, &noise(sound));
-            Ok(Quality { snr_db, coherence: Some(1.0 - found.unexplained), ..own })
+            let mut best = f64::NEG_INFINITY;
+            for tap in &taps {
+                best = best.max(self.snr_db(&tap[sensor], samples)?);
+            }
+            Ok(Quality { snr_db: best, coherence: Some(1.0 - found.unexplained), ..own })
         });
         let quality = quality.collect::<Result<Vec<_>, CalibrateError>>()?;
         Ok(Channel { responses: found.responses, quality, ..Channel::default() })
+    }
+
+    /// Signal to noise of a recorded tap within the band, as of a response of `samples`. Noise is what the end of the recording holds.
+    fn snr_db(&self, sound: &[f64], samples: usize) -> Result<f64, CalibrateError> {
+        let mut sound = sound.to_vec();
+        self.band.limit(&mut sound, self.rate)?;
+        let peak = sound.iter().map(|x| x.abs()).fold(0.0, f64::max);
+        let start = sound.iter().position(|x| x.abs() >= 0.1 * peak).unwrap_or(0);
+        let loud = &sound[start..(start + samples).min(sound.len())];
+        Ok(snr_db(loud, &sound[sound.len() - sound.len() / 20..]))
     }
 
     /// Why a channel is bad, in words: its first response with too little signal; `None` if it is good.

@@ -36,4 +36,5 @@ mod signals_delay;
 mod signals_quality;
 mod signals_schedule;
 mod signals_stimulus;
+mod taps;
 mod verify;

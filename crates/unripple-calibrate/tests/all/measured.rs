@@ -50,15 +50,7 @@ fn taps_of_unknown_shape_and_strength_are_enough() {
     let options = MeasureOptions { repeats: 2, ..MeasureOptions::default() };
     let wires = Wires::by_name(&WORLD.ports(), unripple_core::Device::layout(&device), &[]).unwrap();
     let layout = unripple_core::Device::layout(&device).clone();
-    let session = TapSession::new(
-        &WORLD.surface,
-        &layout,
-        &wires,
-        WORLD.model.clone(),
-        &options,
-        TapOptions::default(),
-    )
-    .unwrap();
+    let session = TapSession::new(&WORLD.surface, &layout, &wires, WORLD.model.clone(), &options).unwrap();
     let handle = device.handle();
     let mut rig = Hands::new(device, handle);
     let places = [AT, Point::from_mm(100.0, 60.0), Point::from_mm(50.0, 40.0), Point::from_mm(85.0, 110.0)];

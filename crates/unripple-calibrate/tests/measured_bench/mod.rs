@@ -26,25 +26,28 @@ pub struct World {
     pub plant: Responses,
 }
 
-pub static WORLD: LazyLock<World> = LazyLock::new(|| {
-    let surface = papers_surface();
-    let truth = Perturbation::default().truth(&surface).unwrap();
-    let modal = |surface: &Surface| match responses(
-        surface,
-        &ResponseOptions { accuracy: 1e-4.into(), ..Default::default() },
-    ) {
-        Ok(Responses::Modal(modal)) => modal,
-        other => panic!("{other:?}"),
-    };
-    let modes = truth.modes(None).unwrap();
-    let mut plant = modal(&truth.surface);
-    for (a, gain) in truth.drive_gains.iter().enumerate() {
-        (0..plant.poles.len()).for_each(|m| plant.input[(a, m)] *= gain);
-    }
-    World { model: modal(&surface), surface, truth, modes, plant: Responses::Modal(plant) }
-});
+pub static WORLD: LazyLock<World> = LazyLock::new(|| World::new(&Perturbation::default()));
 
 impl World {
+    /// The paper's film with unknowns.
+    pub fn new(unknowns: &Perturbation) -> Self {
+        let surface = papers_surface();
+        let truth = unknowns.truth(&surface).unwrap();
+        let modal = |surface: &Surface| match responses(
+            surface,
+            &ResponseOptions { accuracy: 1e-4.into(), ..Default::default() },
+        ) {
+            Ok(Responses::Modal(modal)) => modal,
+            other => panic!("{other:?}"),
+        };
+        let modes = truth.modes(None).unwrap();
+        let mut plant = modal(&truth.surface);
+        for (a, gain) in truth.drive_gains.iter().enumerate() {
+            (0..plant.poles.len()).for_each(|m| plant.input[(a, m)] *= gain);
+        }
+        Self { model: modal(&surface), surface, truth, modes, plant: Responses::Modal(plant) }
+    }
+
     pub fn ports(&self) -> Vec<Port> {
         self.model.ports.clone()
     }

@@ -6,6 +6,7 @@ use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
 use super::outcome::doubted;
 use super::points::{self, middle};
 use super::shelf::Shelf;
+use super::taps;
 use super::wires::{self, Asked, Found};
 use super::{By, Hands, Report, before, figure, levels, report};
 use crate::{TaskError, go_on};
@@ -14,7 +15,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 use unripple::core::{Layout, Point};
 use unripple_calibrate::measure::{
-    Listen, MeasureOptions, Progress, Rig, Session, Sink, TapOptions, TapSession, Way, Wires, campaign,
+    Listen, MeasureOptions, Progress, Rig, Session, Sink, Way, Wires, campaign,
 };
 use unripple_devices::{Expected, WiringOptions, check_wiring};
 use unripple_store::{Library, PointState};
@@ -62,8 +63,7 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
         By::Probe => Way::Probe(Box::new(session)),
         By::Tap => {
             shelf = shelf.by_taps();
-            let (model, taps) = (known.model.clone(), TapOptions::default());
-            Way::Tap(Box::new(TapSession::new(surface, &layout, &wires, model, &settings, taps)?))
+            Way::Tap(Box::new(taps::session(&known, &mut shelf, &layout, &wires, &settings)?))
         }
     };
     let start = Instant::now();

@@ -17,6 +17,7 @@ mod run;
 mod scale;
 mod shelf;
 mod tape;
+mod taps;
 mod verify;
 mod wires;
 

@@ -1,0 +1,86 @@
+//! The force of a tap, from the sensors' signals and the responses that a model expects.
+
+use super::TapOptions;
+use crate::CalibrateError;
+use crate::signals::Band;
+use unripple_linalg::{Cholesky, Mat, non_negative, product, squared_norm};
+
+/// Regularisation of the force: added to the normal matrix, relative to the mean of its diagonal. Less would follow noise at frequencies
+/// that the sensors hardly receive; more would weaken the force by as much.
+const RIDGE: f64 = 1e-4;
+
+/// A force, and how well it explains the signals.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Force {
+    /// Samples in N, from the first sample of the signals on.
+    pub samples: Vec<f64>,
+    /// Share of the power of the signals that it leaves unexplained, as long as the model is trusted.
+    pub unexplained: f64,
+}
+
+impl Force {
+    /// The force that best explains the sensors' signals (`heard`, `[sensor][sample]`) by the modelled responses (`model`, alike) in the
+    /// least-squares sense, straight between knots. All signals are limited to the band, by which responses begin before their impulse:
+    /// the model's have `lead` samples before it.
+    ///
+    /// A tap pushes and never pulls, so that its force has one sign. With a good model that keeps noise from looking like a bounce. With a
+    /// poor one, a force that may pull makes up for part of what the model does not know.
+    pub fn find(
+        heard: &[Vec<f64>],
+        (model, lead): (&[Vec<f64>], usize),
+        (rate, band): (f64, Band),
+        options: &TapOptions,
+    ) -> Result<Self, CalibrateError> {
+        // Knots as close as the band's top asks for, and samples of the signals no closer: they have nothing above it.
+        let step = (rate / (3.0 * band.high[1].min(rate / 3.0))).round().max(1.0) as usize;
+        let samples = |seconds: f64| (seconds * rate) as usize;
+        let (span, all) = (samples(options.span()), samples(options.span() + options.early));
+        let (knots, rows, ahead) = (span / step + 1, all / step + 1, lead / step);
+        // A triangular force at each knot; triangles add up to straight lines between knots.
+        let hat: Vec<f64> =
+            (0..2 * step - 1).map(|i| 1.0 - (i as f64 + 1.0 - step as f64).abs() / step as f64).collect();
+        let mut design = Mat::<f64>::zeros(heard.len() * rows, knots);
+        let mut signal = Mat::<f64>::zeros(heard.len() * rows, 1);
+        for (a, (heard, model)) in heard.iter().zip(model).enumerate() {
+            let at = |i: usize| {
+                let reach = hat.iter().enumerate().filter(|(j, _)| *j <= i);
+                reach.map(|(j, f)| f * model.get(i - j).copied().unwrap_or(0.0)).sum::<f64>() / rate
+            };
+            let moved: Vec<f64> = (0..rows + ahead).map(|n| at(lead - ahead * step + n * step)).collect();
+            for n in 0..rows {
+                signal[(a * rows + n, 0)] = heard.get(n * step).copied().unwrap_or(0.0);
+                (0..knots.min(n + ahead + 1)).for_each(|k| design[(a * rows + n, k)] = moved[n + ahead - k]);
+            }
+        }
+        let mut normal = product(design.transpose(), design.as_ref());
+        let ridge = RIDGE * (0..knots).map(|k| normal[(k, k)]).sum::<f64>() / knots as f64;
+        (0..knots).for_each(|k| normal[(k, k)] += ridge);
+        let right = product(design.transpose(), signal.as_ref());
+        let force = solved(&normal, right, options.pushes).ok_or_else(|| CalibrateError::Recording {
+            what: "force of a tap".into(),
+            expected: "a model that moves at the place".into(),
+            found: "one at rest".into(),
+        })?;
+        let left = &signal - product(design.as_ref(), force.as_ref());
+        let unexplained = squared_norm(left.as_ref()) / squared_norm(signal.as_ref()).max(f64::MIN_POSITIVE);
+        let mut samples = vec![0.0; span + 2 * step];
+        for k in 0..knots {
+            hat.iter().enumerate().for_each(|(j, f)| samples[k * step + j] += f * force[(k, 0)]);
+        }
+        Ok(Self { samples, unexplained })
+    }
+}
+
+/// Solution of the normal equations, or with `one_sign` the best whose elements all have the sign of its sum; `None` for a matrix that is
+/// not positive definite.
+fn solved(normal: &Mat<f64>, right: Mat<f64>, one_sign: bool) -> Option<Mat<f64>> {
+    let (mut free, count) = (right.clone(), right.nrows());
+    Cholesky::new(normal.as_ref())?.solve(free.as_mut());
+    if !one_sign {
+        return Some(free);
+    }
+    let sign = (0..count).map(|k| free[(k, 0)]).sum::<f64>().signum();
+    let slope: Vec<f64> = (0..count).map(|k| sign * right[(k, 0)]).collect();
+    let found = non_negative(|i, j| normal[(i, j)], &slope, vec![0.0; count]);
+    Some(Mat::from_fn(count, 1, |k, _| sign * found[k]))
+}
