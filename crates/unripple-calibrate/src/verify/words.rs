@@ -30,11 +30,7 @@ pub(super) fn verdict(
     // as well.
     let beside = off > FAR * lambda || unlike;
     let doubt = match one.kind {
-        Kind::Here if beside && told => Some(format!(
-            "the probe seems to have been {} the point, at {} (move it to the point, or give the place where it was)",
-            away(at, one.nearby.at),
-            one.nearby.at
-        )),
+        Kind::Here if beside && told => Some(beside_it(bench, at, one.nearby.at)),
         Kind::Here if levels.common.is_none() && bench.options.probe => Some(format!(
             "its gain is {:.2}, and other points have other gains: expected one gain at all points (was the probe's gain \
              changed?)",
@@ -42,16 +38,8 @@ pub(super) fn verdict(
         )),
         Kind::Here => None,
         Kind::Elsewhere(spot, whose) => Some(elsewhere(bench, judged, point, spot.at, whose)),
-        Kind::Late(late) => Some(format!(
-            "the probe's signal comes {:.2} ms {} than at the other points (were samples lost? record it again)",
-            1e3 * late.abs(),
-            if late > 0.0 { "later" } else { "earlier" }
-        )),
-        Kind::Nothing => Some(format!(
-            "{:.0} % of the probe's signal fits no place of this surface (another channel, samples lost, another clock, or a \
-             surface that has changed since: record it again)",
-            100.0 * one.own.unexplained()
-        )),
+        Kind::Late(late) => Some(late_by(bench, late)),
+        Kind::Nothing => Some(nowhere(bench, one.own.unexplained())),
     };
     PointVerdict {
         at,
@@ -81,20 +69,56 @@ fn elsewhere(bench: &Bench, judged: &[Judged], point: usize, at: Point, whose: W
                 bench.options.number(other)
             ),
             _ => format!(
-                "its recording fits point {} at {}, not its own place (is it a recording of that point? record it again)",
+                "its recording fits point {} at {}, not its own place (is it a recording of that point? {} again)",
                 bench.options.number(other),
-                bench.places[other]
+                bench.places[other],
+                again(bench)
             ),
         },
-        Whose::Actuator(a) => format!(
+        Whose::Actuator(a) if bench.options.probe => format!(
             "its recording fits the place of actuator `{}`: is the probe wired to its own channel?",
             bench.surface.actuators[a].name
         ),
-        Whose::Nobody => format!(
-            "the probe seems to have been {} the point, at {at} (move it to the point, or give the place where it was)",
-            away(bench.places[point], at)
-        ),
+        Whose::Actuator(_) | Whose::Nobody => beside_it(bench, bench.places[point], at),
     }
+}
+
+/// Doubt about a point that was measured beside its place, in words.
+fn beside_it(bench: &Bench, from: Point, to: Point) -> String {
+    let (who, what) = match bench.options.probe {
+        true => ("the probe seems", "move it to the point, or give the place where it was"),
+        false => ("the taps seem", "tap at the point, or give the place where they were"),
+    };
+    format!("{who} to have been {} the point, at {to} ({what})", away(from, to))
+}
+
+/// Doubt about a point whose responses come later than at the other points by `late` s, in words.
+fn late_by(bench: &Bench, late: f64) -> String {
+    let who = if bench.options.probe { "probe's signal comes" } else { "responses to its taps come" };
+    let way = if late > 0.0 { "later" } else { "earlier" };
+    format!(
+        "the {who} {:.2} ms {way} than at the other points (were samples lost? {} again)",
+        1e3 * late.abs(),
+        again(bench)
+    )
+}
+
+/// Doubt about a point of whose responses a share `unexplained`, as amplitude, fits no place, in words.
+fn nowhere(bench: &Bench, unexplained: f64) -> String {
+    let (who, what) = match bench.options.probe {
+        true => ("probe's signal fits", "another channel, samples lost, another clock"),
+        false => ("responses to its taps fit", "something else that moved it, a tap that slid, samples lost"),
+    };
+    format!(
+        "{:.0} % of the {who} no place of this surface ({what}, or a surface that has changed since: {} again)",
+        100.0 * unexplained,
+        again(bench)
+    )
+}
+
+/// How a point is measured again, in words.
+fn again(bench: &Bench) -> &'static str {
+    if bench.options.probe { "record it" } else { "tap" }
 }
 
 /// How far and which way a place is from another: `3.1 mm to the right of`.
@@ -124,7 +148,8 @@ pub(super) fn gather(
         }
         if let Some((at, _)) = point.fits {
             notes.push(format!(
-                "point {number}: the probe may have been {} it (± {:.2} mm)",
+                "point {number}: the {} may have been {} it (± {:.2} mm)",
+                if bench.options.probe { "probe" } else { "taps" },
                 away(point.at, at),
                 1e3 * judged[p].error
             ));
