@@ -6,7 +6,8 @@ use crate::{Cholesky, Mat};
 /// earlier.
 const LEVEL: f64 = 1e-9;
 
-/// The numbers λ ≥ 0 that minimise ½ λᵀQλ − bᵀλ for a positive definite Q, from a first guess ≥ 0: an
+/// The numbers λ ≥ 0 that minimise ½ λᵀQλ − bᵀλ for a positive definite Q, from a first guess of
+/// as many, of which negative ones and missing ones count as 0: an
 /// active set as in Lawson and Hanson (1974), Solving Least Squares Problems, chapter 23.
 ///
 /// `form` gives the elements of Q. Where rounding would let the set go round in circles, what was reached is kept, which is λ ≥ 0 too.
@@ -20,6 +21,9 @@ const LEVEL: f64 = 1e-9;
 /// ```
 pub fn non_negative(form: impl Fn(usize, usize) -> f64, slope: &[f64], guess: Vec<f64>) -> Vec<f64> {
     let count = slope.len();
+    let mut guess = guess;
+    guess.resize(count, 0.0);
+    guess.iter_mut().for_each(|value| *value = value.max(0.0));
     let mut found = Descent { form, slope, value: guess, free: Vec::new() };
     found.free = (0..count).filter(|i| found.value[*i] > 0.0).collect();
     found.settle();

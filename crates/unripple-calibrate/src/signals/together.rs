@@ -3,6 +3,7 @@
 use super::transform::Transform;
 use super::{Band, positive, same};
 use realfft::num_complex::Complex;
+use unripple_core::OutOfRange;
 use unripple_dsp::DspError;
 
 /// A plan that turns recordings, one of each of several stimuli, into the response that explains them all best.
@@ -42,8 +43,8 @@ impl Together {
     /// over the largest Σ |D_i|² in the band.
     ///
     /// # Errors
-    /// [`DspError::Size`] if a stimulus is longer than `heard`; [`DspError::Range`] for a rate that is not positive, edges of the band that
-    /// do not ascend, or stimuli that are silent in the band.
+    /// [`DspError::Size`] if a stimulus is longer than `heard`; [`DspError::Range`] for a rate that is not positive, a regularisation that is
+    /// negative or not finite, edges of the band that do not ascend, or stimuli that are silent in the band or not finite.
     pub fn new(
         stimuli: &[Vec<f64>],
         heard: usize,
@@ -53,6 +54,13 @@ impl Together {
     ) -> Result<Self, DspError> {
         positive("samples per second", rate)?;
         band.check()?;
+        if !(regularisation >= 0.0 && regularisation.is_finite()) {
+            return Err(DspError::Range(OutOfRange::new(
+                "regularisation",
+                "finite, not negative",
+                regularisation,
+            )));
+        }
         if let Some(long) = stimuli.iter().map(Vec::len).find(|length| *length > heard) {
             same("recorded samples of a stimulus", long, heard)?;
         }
