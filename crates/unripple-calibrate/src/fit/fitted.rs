@@ -113,8 +113,10 @@ struct Answers<'a> {
 
 impl Answers<'_> {
     fn of(&self, unknown: Unknown) -> Estimate {
-        let place = self.case.layout.unknowns().iter().position(|u| *u == unknown).unwrap_or(0);
-        let error = self.variances[place].max(0.0).sqrt() * self.case.layout.spread(unknown);
+        let place = self.case.layout.unknowns().iter().position(|u| *u == unknown);
+        // What nothing was measured of is as uncertain as before.
+        let variance = place.map_or(1.0, |place| self.variances[place].max(0.0));
+        let error = variance.sqrt() * self.case.layout.spread(unknown);
         Estimate { value: *self.found.values.clone().of(unknown), error }
     }
 
@@ -275,6 +277,12 @@ impl Fitted {
     /// Modal responses with all modes of the fit, also those outside the surface's band.
     pub(crate) fn beyond(&self) -> &ModalResponses {
         &self.beyond
+    }
+
+    /// Modal responses with all modes of the fit that can be sampled at its rate, where it was fitted to responses limited to a band; else
+    /// those in the surface's band.
+    pub(crate) fn sampleable(&self) -> &ModalResponses {
+        self.reached.as_ref().map_or(&self.responses, |reached| &reached.responses)
     }
 
     /// The model limited to the measurement's band, where the measurement was limited to one.

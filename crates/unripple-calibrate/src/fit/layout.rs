@@ -41,6 +41,9 @@ pub(super) fn damping(medium: &Medium, top: f64) -> f64 {
 pub(super) struct Layout {
     /// Number of actuators.
     pub actuators: usize,
+    /// Indices of actuators of which nothing was measured. Their places and gains are no unknowns: free, such a place would become that of
+    /// a stray mass.
+    pub silent: Vec<usize>,
     /// Numbers of half waves along x and y in each term of the profile.
     pub waves: Vec<[u32; 2]>,
     /// Number of stray masses.
@@ -115,6 +118,10 @@ impl Layout {
         all.extend((0..self.actuators).map(Drive));
         all.extend((0..self.actuators).map(Sense));
         all.extend([Level, Late]);
+        all.retain(|unknown| match unknown {
+            Place(p, _) | Drive(p) | Sense(p) => !self.silent.contains(p),
+            _ => true,
+        });
         all
     }
 

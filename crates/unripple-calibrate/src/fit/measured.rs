@@ -45,6 +45,15 @@ pub struct Tap {
 }
 
 impl Measured {
+    /// Indices of those of `count` actuators of which nothing was measured, neither as drive nor as sensor.
+    pub(super) fn silent(&self, count: usize) -> Vec<usize> {
+        let says = |signal: &Vec<f64>| signal.iter().any(|x| *x != 0.0);
+        let pairs = || self.pairs.iter().flat_map(|pairs| pairs.responses.iter().enumerate());
+        let paired = |a: usize| pairs().any(|(n, h)| (n / count == a || n % count == a) && says(h));
+        let tapped = |a: usize| self.taps.iter().any(|tap| tap.heard.get(a).is_some_and(says));
+        (0..count).filter(|a| !paired(*a) && !tapped(*a)).collect()
+    }
+
     /// Responses between actuators alone, in the order of [`Pairs::responses`]: `rate` in Hz, `noise` as in [`Pairs::noise`].
     pub fn pairs(rate: f64, responses: Vec<Vec<f64>>, noise: f64) -> Self {
         Self { rate, pairs: Some(Pairs { responses, noise, limited: None }), taps: Vec::new() }

@@ -107,6 +107,7 @@ pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Resu
         basis.squares.iter().find(|square| **square > 0.0).map_or(band[1], |square| square.sqrt() / TAU);
     let layout = Layout {
         actuators: nominal.actuators.len(),
+        silent: measured.silent(nominal.actuators.len()),
         waves: basis.waves.clone(),
         strays: 0,
         damping: layout::damping(&Medium::of(&nominal.sheet), top),
