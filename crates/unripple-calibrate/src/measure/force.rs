@@ -6,7 +6,7 @@ use crate::signals::Band;
 use unripple_linalg::{Cholesky, Mat, non_negative, product, squared_norm};
 
 /// Regularisation of the force: added to the normal matrix, relative to the mean of its diagonal. Less would follow noise at frequencies
-/// that the sensors hardly receive; more would weaken the force by as much.
+/// that the sensors hardly receive; more would make the force weaker than it is, by about this share.
 const RIDGE: f64 = 1e-4;
 
 /// A force, and how well it explains the signals.
@@ -35,7 +35,9 @@ impl Force {
         let step = (rate / (3.0 * band.high[1].min(rate / 3.0))).round().max(1.0) as usize;
         let samples = |seconds: f64| (seconds * rate) as usize;
         let (span, all) = (samples(options.span()), samples(options.span() + options.early));
-        let (knots, rows, ahead) = (span / step + 1, all / step + 1, lead / step);
+        // Where a recording ends, nothing is known of what follows.
+        let all = all.min(heard.iter().map(Vec::len).min().unwrap_or(0));
+        let (knots, rows, ahead) = (span / step + 1, all.div_ceil(step), lead / step);
         // A triangular force at each knot; triangles add up to straight lines between knots.
         let hat: Vec<f64> =
             (0..2 * step - 1).map(|i| 1.0 - (i as f64 + 1.0 - step as f64).abs() / step as f64).collect();
@@ -48,7 +50,7 @@ impl Force {
             };
             let moved: Vec<f64> = (0..rows + ahead).map(|n| at(lead - ahead * step + n * step)).collect();
             for n in 0..rows {
-                signal[(a * rows + n, 0)] = heard.get(n * step).copied().unwrap_or(0.0);
+                signal[(a * rows + n, 0)] = heard[n * step];
                 (0..knots.min(n + ahead + 1)).for_each(|k| design[(a * rows + n, k)] = moved[n + ahead - k]);
             }
         }
@@ -71,16 +73,23 @@ impl Force {
     }
 }
 
-/// Solution of the normal equations, or with `one_sign` the best whose elements all have the sign of its sum; `None` for a matrix that is
-/// not positive definite.
+/// Solution of the normal equations, or with `one_sign` the best whose elements all have one sign; `None` for a matrix that is not positive
+/// definite.
 fn solved(normal: &Mat<f64>, right: Mat<f64>, one_sign: bool) -> Option<Mat<f64>> {
-    let (mut free, count) = (right.clone(), right.nrows());
-    Cholesky::new(normal.as_ref())?.solve(free.as_mut());
+    let count = right.nrows();
+    let factor = Cholesky::new(normal.as_ref())?;
     if !one_sign {
+        let mut free = right;
+        factor.solve(free.as_mut());
         return Some(free);
     }
-    let sign = (0..count).map(|k| free[(k, 0)]).sum::<f64>().signum();
-    let slope: Vec<f64> = (0..count).map(|k| sign * right[(k, 0)]).collect();
-    let found = non_negative(|i, j| normal[(i, j)], &slope, vec![0.0; count]);
-    Some(Mat::from_fn(count, 1, |k, _| sign * found[k]))
+    let of_sign = |sign: f64| {
+        let slope: Vec<f64> = (0..count).map(|k| sign * right[(k, 0)]).collect();
+        let found = non_negative(|i, j| normal[(i, j)], &slope, vec![0.0; count]);
+        // At the optimum, half of this is what the objective has fallen by.
+        let gain: f64 = found.iter().zip(&slope).map(|(x, b)| x * b).sum();
+        (gain, Mat::from_fn(count, 1, |k, _| sign * found[k]))
+    };
+    let (push, pull) = (of_sign(1.0), of_sign(-1.0));
+    Some(if push.0 >= pull.0 { push.1 } else { pull.1 })
 }

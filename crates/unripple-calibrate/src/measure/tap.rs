@@ -4,14 +4,14 @@ use super::force::Force;
 use crate::CalibrateError;
 use crate::signals::{Band, Together};
 
-/// Assumptions about taps before they are recorded: length, and how far the model is trusted.
+/// Assumptions about taps before they are recorded, and how far the model is trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TapOptions {
     /// Longest time that a tap takes, in s, without bounces.
     pub length: f64,
     /// Longest time from a tap to its last bounce, in s.
     pub bounces: f64,
-    /// Time after a force, in s, in which the model is trusted.
+    /// Time after the last possible force, in s, until which signals are compared with the model.
     pub early: f64,
     /// Whether a tap is known to push and never to pull, so that its force has one sign.
     pub pushes: bool,
@@ -20,43 +20,48 @@ pub struct TapOptions {
 }
 
 impl Default for TapOptions {
-    /// For a model that was fitted to the surface: bounces within 13 ms, by 6 ms of responses.
+    /// For a model that was fitted to the surface: bounces within 13 ms.
     fn default() -> Self {
         Self { length: 2.5e-3, bounces: 13e-3, early: 6e-3, pushes: true, floor: 1e-3 }
     }
 }
 
 impl TapOptions {
-    /// For a model of which little is known to be right. Without bounces it is trusted only in the time of the first reflections, which a
-    /// small error of tension hardly moves; a force that may pull makes up for part of its errors.
+    /// For a model of which little is known to be right. Without bounces it is compared with the first 11 ms alone, in which a small error
+    /// of tension hardly moves reflections; a force that may pull makes up for part of its errors.
     pub fn for_unfitted() -> Self {
         Self { bounces: 0.0, pushes: false, ..Self::default() }
     }
 
-    /// Duration of the signals' part in which there may be a force, in s: it may begin a tap's length before it is heard, and as long
-    /// after.
+    /// Duration of the signals' part in which there may be a force, in s: from a tap's length before the first one is expected to that
+    /// much after it, and until the last bounce.
     pub fn span(&self) -> f64 {
         2.0 * self.length + self.bounces
     }
 }
 
-/// Share of the largest power at which a tap counts as heard, and (`ABOVE`) factor above the power of the noise. Weaker signals from afar
-/// would come earlier by less than a tap's length.
+/// Share of the largest power at which a tap counts as heard: what comes before is weaker, and not a tap's length earlier.
 const HEARD: f64 = 0.01;
-const ABOVE: f64 = 6.0;
 
-/// Share of the recording that is quieter than what counts as noise: silence before a tap, and what follows its ringing.
+/// Factor above the power of noise at which a tap counts as heard: averages over `AVERAGED` rarely vary by more than a factor of three.
+/// Where noise is so loud that this is above `LOUD` of the largest power, that part is the tap.
+const ABOVE: f64 = 6.0;
+const LOUD: f64 = 0.25;
+
+/// Share of the recording that is quieter than what counts as noise: silence before a tap, and what follows its ringing, are more of it.
 const QUIET: f64 = 0.2;
 
-/// Share of a tap's length over which power is averaged.
+/// Share of a tap's length over which power is averaged: half would leave more of the noise's variation, twice as much blur the beginning.
 const AVERAGED: f64 = 0.25;
 
 /// Responses found from taps at a place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tapped {
-    /// Response of each actuator at the place, by reciprocity, in m/s per unit impulse; time 0 is the start of the tap.
+    /// Response of each actuator at the place, by reciprocity, in m/s per unit impulse, which is at time 0.
     pub responses: Vec<Vec<f64>>,
-    /// Force of each tap in N, at the rate of the recording.
+    /// Sample of each recording with which its tap may begin.
+    pub begins: Vec<usize>,
+    /// Force of each tap in N from there on, at the rate of the recording; empty for one that came too late to be heard out.
     pub forces: Vec<Vec<f64>>,
     /// Share of the power of the early signals that force and model do not explain.
     pub unexplained: f64,
@@ -67,64 +72,90 @@ pub struct Tapped {
 /// The signal of sensor a is `s_a = h_a * f`, with the same force f for all. First f is estimated, as the force, zero but for
 /// [`TapOptions::span`], that with the model's responses best explains the signals until [`TapOptions::early`] later, in the least-squares
 /// sense; then each h_a is s_a deconvolved by f, all taps together. The model thus determines the strength and fine shape of a pulse of a
-/// few milliseconds and of its bounces, and nothing of the responses themselves.
+/// few milliseconds and of its bounces, and nothing of the responses themselves. A tap so late that the recording ends before its response
+/// is left out if another is not.
 ///
-/// `heard` is `[tap][sensor][sample]`, latency removed; `model` is `[sensor][sample]` at the same place and rate.
+/// `heard` is `[tap][sensor][sample]`, latency removed; `model` is `[sensor][sample]` at the same place and rate, and longer than these
+/// times by one period of the band's lowest frequency. Sensors in `deaf` say nothing of the force.
 ///
 /// # Errors
 /// [`CalibrateError::Recording`] if no sensor has a signal; [`CalibrateError::Count`] if sensors and model disagree;
 /// [`CalibrateError::Dsp`] from deconvolution.
 pub fn tapped(
     heard: &[Vec<Vec<f64>>],
-    model: &[Vec<f64>],
+    (model, deaf): (&[Vec<f64>], &[usize]),
     samples: usize,
-    rate: f64,
-    band: Band,
+    (rate, band): (f64, Band),
     options: &TapOptions,
 ) -> Result<Tapped, CalibrateError> {
+    if let Some(found) = heard.iter().map(Vec::len).find(|found| *found != model.len()) {
+        let expected = format!("{}, one per actuator", model.len());
+        return Err(CalibrateError::Count { what: "sensors that recorded a tap", expected, found });
+    }
     let limited = |signals: &[Vec<f64>]| -> Result<Vec<Vec<f64>>, CalibrateError> {
         let mut signals = signals.to_vec();
         signals.iter_mut().try_for_each(|signal| band.limit(signal, rate))?;
         Ok(signals)
     };
-    // The band's filter begins before the impulse; what of that is further ahead than a tap's length is of its lower edge, and little.
+    let hears = |signals: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        signals.iter().enumerate().filter(|(a, _)| !deaf.contains(a)).map(|(_, s)| s.clone()).collect()
+    };
+    // The band's filter answers before the impulse; more than a tap's length before, that is of its lower edge, and little.
     let lead = (options.length * rate) as usize;
     let ahead = |response: &Vec<f64>| [vec![0.0; lead], response.clone()].concat();
-    let model = limited(&model.iter().map(ahead).collect::<Vec<_>>())?;
-    let (mut cuts, mut forces) = (Vec::new(), Vec::new());
-    let (mut weight, mut unexplained) = (0.0, 0.0);
+    let model = hears(&limited(&model.iter().map(ahead).collect::<Vec<_>>())?);
+    let back = arrival(&model, rate).saturating_sub(lead) + lead + averaged(rate);
+    let (mut cuts, mut begins) = (Vec::new(), Vec::new());
     for (tap, sensors) in heard.iter().enumerate() {
-        if sensors.len() != model.len() {
-            let expected = format!("{}, one per actuator", model.len());
-            let what = "sensors that recorded a tap";
-            return Err(CalibrateError::Count { what, expected, found: sensors.len() });
-        }
         let mut cut = limited(sensors)?;
-        let Some(begin) = begin(&cut, rate, options) else {
-            return Err(CalibrateError::Recording {
-                what: format!("tap {}", tap + 1),
-                expected: "a tap that the sensors record".into(),
-                found: "nothing above the noise".into(),
-            });
-        };
+        let begin = heard_at(&hears(&cut), rate).ok_or_else(|| CalibrateError::Recording {
+            what: format!("tap {}", tap + 1),
+            expected: "a tap that the sensors record".into(),
+            found: "nothing above the noise".into(),
+        })?;
+        let begin = begin.saturating_sub(back);
         cut.iter_mut().for_each(|signal| drop(signal.drain(..begin.min(signal.len()))));
-        let force = Force::find(&cut, (&model, lead), (rate, band), options)?;
-        let energy: f64 = force.samples.iter().map(|f| f * f).sum();
-        weight += energy;
-        unexplained += energy * force.unexplained;
-        forces.push(force.samples);
         cuts.push(cut);
+        begins.push(begin);
     }
-    let responses = together(&mut cuts, &forces, samples, rate, band, options.floor)?;
+    let whole = |cut: &Vec<Vec<f64>>| cut.iter().all(|signal| signal.len() >= samples);
+    let some = cuts.iter().any(whole);
+    let (mut forces, mut weight, mut unexplained) = (vec![Vec::new(); cuts.len()], 0.0, 0.0);
+    for (cut, to) in cuts.iter().zip(&mut forces).filter(|(cut, _)| whole(cut) || !some) {
+        let force = Force::find(&hears(cut), (&model, lead), (rate, band), options)?;
+        let energy: f64 = force.samples.iter().map(|f| f * f).sum();
+        (weight, unexplained) = (weight + energy, unexplained + energy * force.unexplained);
+        *to = force.samples;
+    }
+    let used = cuts.into_iter().zip(&forces).filter(|(_, force)| !force.is_empty());
+    let (mut taps, pushes): (Vec<_>, Vec<_>) = used.map(|(cut, force)| (cut, force.clone())).unzip();
+    let responses = together(&mut taps, &pushes, samples, (rate, band), options.floor)?;
     let scale = if weight > 0.0 { 1.0 / weight } else { 0.0 };
-    Ok(Tapped { responses, forces, unexplained: unexplained * scale })
+    Ok(Tapped { responses, begins, forces, unexplained: unexplained * scale })
 }
 
-/// The sample a tap's length before that at which the power of all sensors, each relative to its peak, first is that of a tap; `None` for
-/// silence.
-fn begin(sensors: &[Vec<f64>], rate: f64, options: &TapOptions) -> Option<usize> {
-    let window = ((AVERAGED * options.length * rate) as usize).max(1);
-    let mut powers = vec![0.0; sensors.iter().map(Vec::len).min()?];
+/// The sample at which the power of all sensors first is that of a tap; `None` for silence.
+fn heard_at(sensors: &[Vec<f64>], rate: f64) -> Option<usize> {
+    let powers = powers(sensors, rate);
+    let most = powers.iter().copied().fold(0.0, f64::max);
+    let mut sorted = powers.clone();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let noise = *sorted.get((QUIET * sorted.len() as f64) as usize)?;
+    let level = (HEARD * most).max((ABOVE * noise).min(LOUD * most));
+    powers.iter().position(|power| *power >= level && most > 0.0)
+}
+
+/// The sample at which the first of the model's responses arrives.
+fn arrival(model: &[Vec<f64>], rate: f64) -> usize {
+    let powers = powers(model, rate);
+    let most = powers.iter().copied().fold(0.0, f64::max);
+    powers.iter().position(|power| *power >= HEARD * most).unwrap_or(0)
+}
+
+/// Power of all sensors, each relative to its peak, summed over the last [`AVERAGED`] of a tap's usual length.
+fn powers(sensors: &[Vec<f64>], rate: f64) -> Vec<f64> {
+    let window = averaged(rate);
+    let mut powers = vec![0.0; sensors.iter().map(Vec::len).min().unwrap_or(0)];
     for signal in sensors {
         let most = signal.iter().fold(0.0, |m: f64, x| m.max(x * x));
         if most > 0.0 {
@@ -132,23 +163,16 @@ fn begin(sensors: &[Vec<f64>], rate: f64, options: &TapOptions) -> Option<usize>
         }
     }
     let mut sum = 0.0;
-    let moving: Vec<f64> = (0..powers.len())
-        .map(|i| {
-            sum += powers[i] - if i >= window { powers[i - window] } else { 0.0 };
-            sum
-        })
-        .collect();
-    let most = moving.iter().copied().fold(0.0, f64::max);
-    if most <= 0.0 {
-        return None;
-    }
-    let mut sorted = moving.clone();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let noise = sorted[(QUIET * sorted.len() as f64) as usize];
-    // However loud the noise, the loudest part is the tap.
-    let level = (HEARD * most).max((ABOVE * noise).min(0.25 * most));
-    let first = moving.iter().position(|power| *power >= level)?;
-    Some(first.saturating_sub(window + (options.length * rate) as usize))
+    let moved = |i: usize| {
+        sum += powers[i] - if i >= window { powers[i - window] } else { 0.0 };
+        sum
+    };
+    (0..powers.len()).map(moved).collect()
+}
+
+/// Number of samples over which power is summed.
+fn averaged(rate: f64) -> usize {
+    ((AVERAGED * TapOptions::default().length * rate) as usize).max(1)
 }
 
 /// The response of each sensor to all taps.
@@ -156,8 +180,7 @@ fn together(
     taps: &mut [Vec<Vec<f64>>],
     forces: &[Vec<f64>],
     samples: usize,
-    rate: f64,
-    band: Band,
+    (rate, band): (f64, Band),
     floor: f64,
 ) -> Result<Vec<Vec<f64>>, CalibrateError> {
     let longest = |rows: &mut dyn Iterator<Item = usize>| rows.max().unwrap_or(0);

@@ -15,8 +15,9 @@ pub struct TapSession {
     tap: TapOptions,
     sensors: Vec<usize>,
     model: ModalResponses,
-    /// Gain of each actuator's sensor over that of its drive, as far as it is known.
-    gains: Vec<f64>,
+    fitted: Option<Box<Fitted>>,
+    /// Factor on each sensor's signal.
+    scales: Vec<f64>,
     band: Band,
     rate: f64,
     heard: usize,
@@ -51,20 +52,47 @@ impl TapSession {
             tap: TapOptions::for_unfitted(),
             sensors: wires.sensors.clone(),
             model,
-            gains: vec![1.0; surface.actuators.len()],
+            fitted: None,
+            scales: vec![1.0; surface.actuators.len()],
             band: Band::within(sweep.from, sweep.to),
             rate: sweep.rate,
             heard: samples.div_ceil(layout.block) * layout.block,
         })
     }
 
+    /// The same plan with a factor on the signal of each sensor: below 0 for one of reversed sign.
+    #[must_use]
+    pub fn by_scales(self, scales: Vec<f64>) -> Self {
+        Self { scales, ..self }
+    }
+
     /// The same plan with a model that was fitted to the responses between actuators. It knows masses on the sheet, holds for longer, so
-    /// that the bounces of taps are found, and tells the gains of sensors from those of drives.
+    /// that the bounces of taps are found, and tells the gains of sensors from those of drives, but for one factor common to all.
     #[must_use]
     pub fn by_fitted(self, fitted: &Fitted) -> Self {
-        let gains = fitted.actuators.iter().map(|actuator| actuator.sense.value / actuator.drive.value);
-        let (model, gains) = (fitted.beyond().clone(), gains.collect());
-        Self { model, gains, tap: TapOptions::default(), ..self }
+        Self { fitted: Some(Box::new(fitted.clone())), tap: TapOptions::default(), ..self }
+    }
+
+    /// Gain of an actuator's sensor over that of its drive, as far as it is known.
+    fn gain(&self, actuator: usize) -> f64 {
+        let fitted = self.fitted.as_ref().and_then(|fitted| fitted.actuators.get(actuator));
+        fitted.map_or(1.0, |actuator| actuator.sense.value / actuator.drive.value)
+    }
+
+    /// Signal of each sensor to an impulse at a place, as the model has it.
+    fn expected(&self, at: Point) -> Vec<Vec<f64>> {
+        // The band's filter is as long as a period of its lowest frequency, and a model that ends sooner ends differently.
+        let seconds = self.tap.span() + self.tap.early + 1.0 / self.band.low[0].max(1.0);
+        let model = self.fitted.as_ref().map_or(&self.model, |fitted| fitted.sampleable());
+        let known = sample(model, &[at], (seconds * self.rate) as usize + 1);
+        let one = |actuator: usize| {
+            let gain = self.gain(actuator);
+            let response: Vec<f64> =
+                known.response(actuator, 0).iter().map(|h| gain * f64::from(*h)).collect();
+            let coil = self.fitted.as_ref().and_then(|fitted| fitted.coil(actuator));
+            coil.map_or_else(|| response.clone(), |coil| coil.behind(&response, self.rate))
+        };
+        (0..self.sensors.len()).map(one).collect()
     }
 
     /// Has a place tapped, as often as there are repeats, and finds the responses. `at` is in m, `attempt` counts the
@@ -85,39 +113,39 @@ impl TapSession {
             rig.ready(number, at, attempt)?;
             rig.tap(number, at, attempt)?;
             let heard = record(rig.device(), &[], &[], &self.sensors, self.heard)?;
-            let as_drive = |(sound, gain): (&Vec<f64>, &f64)| {
+            let scaled = |(sound, scale): (&Vec<f64>, &f64)| {
                 let mut sound = shift(sound, -self.options.latency);
-                sound.iter_mut().for_each(|x| *x /= gain);
+                sound.iter_mut().for_each(|x| *x *= scale);
                 sound
             };
-            taps.push(heard.iter().zip(&self.gains).map(as_drive).collect::<Vec<_>>());
+            taps.push(heard.iter().zip(&self.scales).map(scaled).collect::<Vec<_>>());
         }
         let samples = self.options.samples(self.rate);
-        let early = ((self.tap.span() + self.tap.early) * self.rate) as usize;
-        let known = sample(&self.model, &[at], early.max(1));
-        let model: Vec<Vec<f64>> = (0..self.sensors.len())
-            .map(|actuator| known.response(actuator, 0).iter().map(|h| f64::from(*h)).collect())
-            .collect();
-        let found = tapped(&taps, &model, samples, self.rate, self.band, &self.tap)?;
-        let quality = found.responses.iter().enumerate().map(|(sensor, response)| {
-            let own = Quality::of(response, &[], self.rate)?;
+        let known = (&self.expected(at)[..], &self.options.without[..]);
+        let mut found = tapped(&taps, known, samples, (self.rate, self.band), &self.tap)?;
+        let used = || (0..taps.len()).filter(|tap| !found.forces[*tap].is_empty());
+        let quality = (0..self.sensors.len()).map(|sensor| {
+            let own = Quality::of(&found.responses[sensor], &[], self.rate)?;
             let mut best = f64::NEG_INFINITY;
-            for tap in &taps {
-                best = best.max(self.snr_db(&tap[sensor], samples)?);
+            for tap in used() {
+                best = best.max(self.snr_db(&taps[tap][sensor], found.begins[tap], samples)?);
             }
             Ok(Quality { snr_db: best, coherence: Some(1.0 - found.unexplained), ..own })
         });
         let quality = quality.collect::<Result<Vec<_>, CalibrateError>>()?;
+        for (sensor, response) in found.responses.iter_mut().enumerate() {
+            let gain = self.gain(sensor);
+            response.iter_mut().for_each(|h| *h /= gain);
+        }
         Ok(Channel { responses: found.responses, quality, ..Channel::default() })
     }
 
-    /// Signal to noise of a recorded tap within the band, as of a response of `samples`. Noise is what the end of the recording holds.
-    fn snr_db(&self, sound: &[f64], samples: usize) -> Result<f64, CalibrateError> {
+    /// Signal to noise of a recorded tap within the band, as of a response of `samples` from the sample `begin` on. Noise is what the end
+    /// of the recording holds.
+    fn snr_db(&self, sound: &[f64], begin: usize, samples: usize) -> Result<f64, CalibrateError> {
         let mut sound = sound.to_vec();
         self.band.limit(&mut sound, self.rate)?;
-        let peak = sound.iter().map(|x| x.abs()).fold(0.0, f64::max);
-        let start = sound.iter().position(|x| x.abs() >= 0.1 * peak).unwrap_or(0);
-        let loud = &sound[start..(start + samples).min(sound.len())];
+        let loud = &sound[begin.min(sound.len())..(begin + samples).min(sound.len())];
         Ok(snr_db(loud, &sound[sound.len() - sound.len() / 20..]))
     }
 
