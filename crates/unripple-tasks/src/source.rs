@@ -46,6 +46,8 @@ fn about(library: &Library) -> Vec<Note> {
     let unchecked = library.logged("model").filter(|log| log["checked"] == false);
     let said = unchecked.and_then(|log| log["said"].as_str());
     notes.extend(said.map(|said| Note { topic: "model", text: said.into() }));
+    let tapped = library.logged("taps").and_then(|log| log["said"].as_str());
+    notes.extend(tapped.map(|said| Note { topic: "model", text: said.into() }));
     notes.extend(library.without_scale().map(|why| Note { topic: "level", text: why.into() }));
     notes
 }

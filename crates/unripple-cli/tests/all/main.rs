@@ -9,6 +9,7 @@ mod bench;
 mod bounds;
 mod calibrate;
 mod calibrate_bands;
+mod calibrate_taps;
 #[path = "../common/mod.rs"]
 mod common;
 mod compare;

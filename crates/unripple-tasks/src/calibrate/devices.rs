@@ -1,7 +1,6 @@
 //! Opens the device that an ask names, for a calibration.
 
-use super::hands::Hands;
-use super::rigs::{HandRig, VirtualRig};
+use super::rigs::{HandRig, People, VirtualRig};
 use crate::TaskError;
 use crate::{DeviceAsk, DeviceKind};
 use crate::{device, judge};
@@ -27,9 +26,9 @@ fn failed(error: DevicesError) -> TaskError {
     }
 }
 
-/// Opens the device that a request names; `hands` asks a person to move the probe of a real one.
-pub fn open(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Opened, TaskError> {
-    open_under(options, surface, hands, Vec::new())
+/// Opens the device that a request names, with the people at a real one.
+pub fn open(options: &DeviceAsk, surface: &Surface, people: People) -> Result<Opened, TaskError> {
+    open_under(options, surface, people, Vec::new())
 }
 
 /// Opens the device that a request names, as `open` does. `tension` is the tension of a virtual surface divided by its nominal tension
@@ -37,13 +36,13 @@ pub fn open(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Open
 pub fn open_under(
     options: &DeviceAsk,
     surface: &Surface,
-    hands: Hands,
+    people: People,
     tension: Vec<(f64, f64)>,
 ) -> Result<Opened, TaskError> {
     match options.device {
         DeviceKind::Virtual => virtual_surface(options, surface, tension),
-        DeviceKind::Jack => jack(options, surface, hands),
-        DeviceKind::Card => card(options, surface, hands),
+        DeviceKind::Jack => jack(options, surface, people),
+        DeviceKind::Card => card(options, surface, people),
         DeviceKind::Tape => Err(TaskError::Input(
             "`device` tape: expected a device that plays and listens at once, found files".into(),
         )),
@@ -80,21 +79,21 @@ fn inputs(surface: &Surface) -> Vec<String> {
     device::names(surface).into_iter().chain([PROBE.to_owned()]).collect()
 }
 
-fn jack(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Opened, TaskError> {
+fn jack(options: &DeviceAsk, surface: &Surface, people: People) -> Result<Opened, TaskError> {
     let device = Jack::open(&device::jack(options, surface, inputs(surface))).map_err(failed)?;
-    Ok(Opened { rig: Box::new(HandRig::new(device, hands)), truth: None })
+    Ok(Opened { rig: Box::new(HandRig::new(device, people)), truth: None })
 }
 
 #[cfg(feature = "cards")]
-fn card(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Opened, TaskError> {
+fn card(options: &DeviceAsk, surface: &Surface, people: People) -> Result<Opened, TaskError> {
     let known = device::card(options, surface, inputs(surface));
     let device = unripple_devices::cards::Card::open(&known).map_err(failed)?;
-    Ok(Opened { rig: Box::new(HandRig::new(device, hands)), truth: None })
+    Ok(Opened { rig: Box::new(HandRig::new(device, people)), truth: None })
 }
 
 /// Says how to get a program that knows cards.
 #[cfg(not(feature = "cards"))]
-fn card(options: &DeviceAsk, _: &Surface, _: Hands) -> Result<Opened, TaskError> {
+fn card(options: &DeviceAsk, _: &Surface, _: People) -> Result<Opened, TaskError> {
     let named = options.card.as_ref().or(options.capture_card.as_ref());
     let named = named
         .map_or_else(String::new, |id| format!(" for `{id}` with {} samples a block", options.card_block));

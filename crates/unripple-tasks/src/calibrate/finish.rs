@@ -1,5 +1,6 @@
 //! The record of a measurement in its library: settings before it begins, doubts when all points are there.
 
+use super::By;
 use super::campaign::Campaign;
 use super::shelf::Shelf;
 use super::verify;
@@ -232,8 +233,17 @@ fn useless(shelf: &mut Shelf) -> Result<(), TaskError> {
     };
     let (bad, good) = (count(PointState::Bad), count(PointState::Measured));
     let found = (bad > 0 && good == 0).then(|| {
-        let why = "expected some that are good: look at what is said of each, at the probe and at the levels, and measure them again";
-        Doubt::of(CHECK, format!("{} measured by the probe {} bad, {why}", points(bad), if bad == 1 { "is" } else { "are all" }))
+        let tapped = shelf.library.plan().provenance.get("by").is_some_and(|by| by == "tap");
+        let (by, look) = if tapped { ("taps", "the sensors") } else { ("the probe", "the probe and at the levels") };
+        let all = if bad == 1 { "is" } else { "are all" };
+        Doubt::of(
+            CHECK,
+            format!(
+                "{} measured by {by} {all} bad, expected some that are good: look at what is said of each, at {look}, and measure \
+                 them again",
+                points(bad)
+            ),
+        )
     });
     Ok(shelf.library.set_doubts(CHECK, found.into_iter().collect())?)
 }
@@ -279,8 +289,9 @@ fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
             "over_probe": apart,
             "left_out": true,
             "said": format!(
-                "sensors are {apart:.3} times as loud as the probe, so they must be in another unit: the actuators' own points \
-                 are used in no metric (`input_scales` gives their scale)"
+                "sensors are {apart:.3} times as loud as the {}, so they must be in another unit: the actuators' own points \
+                 are used in no metric (`input_scales` gives their scale)",
+                if campaign.ask.by == By::Tap { "responses to taps" } else { "probe" }
             ),
         }),
         Some(apart) => json!({ "over_probe": apart, "left_out": false }),

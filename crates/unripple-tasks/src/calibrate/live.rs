@@ -5,6 +5,7 @@ use super::devices::{self, Opened};
 use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
 use super::outcome::doubted;
 use super::points::{self, middle};
+use super::rigs::People;
 use super::shelf::Shelf;
 use super::taps;
 use super::wires::{self, Asked, Found};
@@ -25,7 +26,8 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
     let (ask, surface) = (known.ask, known.surface);
     before::apply(ask, surface, &mut known.settings)?;
     known.warn();
-    let Opened { mut rig, truth } = devices::open(&ask.device, surface, hands)?;
+    let people = People { hands, probe: ask.by == By::Probe };
+    let Opened { mut rig, truth } = devices::open(&ask.device, surface, people)?;
     let layout = rig.device().layout().clone();
     let wires = Wires::by_name(&known.model.ports, &layout, &ask.wires)?;
     known.places = points::places(ask, surface, !wires.sensors.is_empty())?;

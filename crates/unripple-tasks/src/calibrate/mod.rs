@@ -28,4 +28,5 @@ pub use levels::Levels;
 pub use outcome::Report;
 pub(crate) use points::middle;
 pub use report::Report as LibraryReport;
+pub(crate) use rigs::People;
 pub use run::{run, run_with};

@@ -47,21 +47,29 @@ impl Rig for VirtualRig {
     }
 }
 
+/// People at a real surface.
+pub struct People {
+    /// The callback that asks them to move the probe or to tap.
+    pub hands: Hands,
+    /// Whether there is a probe to be moved: taps need none.
+    pub probe: bool,
+}
+
 /// A real device, and people at the surface who move the probe and tap.
 pub struct HandRig<D> {
     device: D,
-    hands: Hands,
+    people: People,
     place: Option<usize>,
 }
 
 impl<D: Device> HandRig<D> {
-    /// A real device, and the callback that asks people at it.
-    pub fn new(device: D, hands: Hands) -> Self {
-        Self { device, hands, place: None }
+    /// A real device, and the people at it.
+    pub fn new(device: D, people: People) -> Self {
+        Self { device, people, place: None }
     }
 
     fn ask(&mut self, number: usize, text: &str) -> Result<(), CalibrateError> {
-        (self.hands)(text).map_err(|why| CalibrateError::Rig { number, why })
+        (self.people.hands)(text).map_err(|why| CalibrateError::Rig { number, why })
     }
 }
 
@@ -71,7 +79,7 @@ impl<D: Device> Rig for HandRig<D> {
     }
 
     fn ready(&mut self, number: usize, at: Point, _attempt: u64) -> Result<(), CalibrateError> {
-        if self.place != Some(number) {
+        if self.people.probe && self.place != Some(number) {
             self.ask(number, &format!("point {}: put the probe at {at}", number + 1))?;
             self.place = Some(number);
         }

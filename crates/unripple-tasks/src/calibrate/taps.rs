@@ -4,16 +4,18 @@ use super::campaign::Campaign;
 use super::shelf::{SAID, Shelf};
 use crate::TaskError;
 use crate::fit;
-use serde_json::json;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use unripple::core::Layout;
-use unripple_calibrate::measure::{MeasureOptions, TapSession, Wires};
+use unripple_calibrate::measure::{MeasureOptions, Sink, TapSession, Wires};
 use unripple_calibrate::{FitOptions, Fitted, Verdict};
+use unripple_store::Library;
 
-/// Key of the library's log entry that says by which model forces were found.
+/// Key of the log entries that say by which model forces were found: that of each point, and of the library for those of the surface file.
 const KEY: &str = "taps";
 
 /// A session of taps, by a model that is fitted to the responses between actuators. Where they give no good one, the surface file's has to
-/// do, and the log says so.
+/// do, and the log of each point that is still to be measured says so, and why.
 pub(super) fn session(
     known: &Campaign<'_>,
     shelf: &mut Shelf,
@@ -21,19 +23,41 @@ pub(super) fn session(
     wires: &Wires,
     settings: &MeasureOptions,
 ) -> Result<TapSession, TaskError> {
-    let session = TapSession::new(known.surface, layout, wires, known.model.clone(), settings)?;
-    let (session, said) = match fitted(known, shelf)? {
-        Ok(fitted) => (session.by_fitted(&fitted), None),
-        Err(why) => (
-            session,
-            Some(format!(
-                "the forces of taps are found by the model of the surface file, since none could be fitted to the responses between \
-                 actuators ({why}): beside masses that the file does not know, and of taps that bounce, responses are wrong"
-            )),
-        ),
+    let surface = known.surface;
+    let scales = surface.actuators.iter().map(|actuator| known.scales.input(&actuator.name)).collect();
+    let session = TapSession::new(surface, layout, wires, known.model.clone(), settings)?.by_scales(scales);
+    let missing = shelf.missing();
+    if missing.is_empty() {
+        return Ok(session);
+    }
+    let (session, why) = match fitted(known, shelf)? {
+        Ok(fitted) => (session.by_fitted(&fitted), Value::Null),
+        Err(why) => (session, Value::String(why)),
     };
-    shelf.library.log(KEY, json!({ "fitted": said.is_none(), SAID: said }))?;
+    let log = json!({ KEY: { "fitted": why.is_null(), "why": why } });
+    shelf
+        .library
+        .log_points(missing.into_iter().map(|point| (point, log.clone())).collect::<BTreeMap<_, _>>())?;
+    let said = said(&shelf.library);
+    shelf.library.log(KEY, said.map_or(Value::Null, |said| json!({ SAID: said })))?;
     Ok(session)
+}
+
+/// How many points were measured by the model of the surface file, and why, in words; `None` if none was.
+fn said(library: &Library) -> Option<String> {
+    let log = |point: usize| library.logged_point(point)?.get(KEY);
+    let unfitted = |point: &usize| log(*point).is_some_and(|log| log["fitted"] == false);
+    let points: Vec<usize> = (0..library.points().len()).filter(unfitted).collect();
+    let why = points.last().and_then(|point| log(*point)?["why"].as_str()).unwrap_or("not said");
+    let count = match points.len() {
+        0 => return None,
+        1 => "1 point".to_owned(),
+        count => format!("{count} points"),
+    };
+    Some(format!(
+        "at {count} the forces of taps are found by the model of the surface file, since none was fitted to the responses between \
+         actuators ({why}): beside masses that the file does not know, and where taps bounce, responses may be wrong"
+    ))
 }
 
 /// The model fitted to the responses between actuators, or why there is no good one.

@@ -1,7 +1,7 @@
 //! Checks of the device, its wires and its clock.
 
 use super::check::Check;
-use crate::calibrate::{nobody, open};
+use crate::calibrate::{People, nobody, open};
 use crate::{DeviceAsk, DeviceKind, TaskError};
 use std::sync::Arc;
 use unripple::core::{Device, Layout, ModalResponses, Point, Responses, State, Status, Surface};
@@ -14,7 +14,7 @@ pub fn checks(
     surface: &Surface,
     model: &Arc<Responses>,
 ) -> Result<Vec<Check>, TaskError> {
-    let mut opened = match open(options, surface, nobody()) {
+    let mut opened = match open(options, surface, People { hands: nobody(), probe: true }) {
         Ok(opened) => opened,
         Err(error) => {
             let fix = match options.device {

@@ -2,7 +2,7 @@
 
 use super::Ask;
 use super::known::Known;
-use crate::calibrate::{middle, open_under};
+use crate::calibrate::{People, middle, open_under};
 use crate::{DeviceAsk, Progress, TaskError, go_on};
 use unripple::core::Layout;
 use unripple_calibrate::CalibrateError;
@@ -44,7 +44,9 @@ impl Bench {
         let output_scale = ask.device.output_scale.or(known.output_scale());
         let device = DeviceAsk { output_scale, ..ask.device.clone() };
         // No probe is listened to, so nobody need move one.
-        let mut rig = open_under(&device, surface, Box::new(|_| Ok(())), course(ask))?.rig;
+        let mut rig =
+            open_under(&device, surface, People { hands: Box::new(|_| Ok(())), probe: false }, course(ask))?
+                .rig;
         let layout = rig.device().layout().clone();
         let wires = Wires::by_name(&known.modal.ports, &layout, &[])?;
         if wires.sensors.is_empty() {
