@@ -1,6 +1,5 @@
-//! The force of a tap, from the sensors' signals and the responses that a model expects.
+//! The force of a tap, from the sensors' signals and the responses that a model expects, and what is assumed of it.
 
-use super::TapOptions;
 use crate::CalibrateError;
 use crate::signals::Band;
 use unripple_linalg::{Cholesky, Mat, non_negative, product, squared_norm};
@@ -8,6 +7,42 @@ use unripple_linalg::{Cholesky, Mat, non_negative, product, squared_norm};
 /// Regularisation of the force: added to the normal matrix, relative to the mean of its diagonal. Less would follow noise at frequencies
 /// that the sensors hardly receive; more would make the force weaker than it is, by about this share.
 const RIDGE: f64 = 1e-4;
+
+/// Assumptions about taps before they are recorded, and how far the model is trusted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TapOptions {
+    /// Longest time that a tap takes, in s, without bounces.
+    pub length: f64,
+    /// Longest time from a tap to its last bounce, in s.
+    pub bounces: f64,
+    /// Time after the last possible force, in s, until which signals are compared with the model.
+    pub early: f64,
+    /// Whether a tap is known to push and never to pull, so that its force has one sign.
+    pub pushes: bool,
+    /// Regularisation of the deconvolution: power added to that of the taps' spectra, relative to their strongest line in the band.
+    pub floor: f64,
+}
+
+impl Default for TapOptions {
+    /// For a model that was fitted to the surface: bounces within 13 ms.
+    fn default() -> Self {
+        Self { length: 2.5e-3, bounces: 13e-3, early: 6e-3, pushes: true, floor: 1e-3 }
+    }
+}
+
+impl TapOptions {
+    /// For a model of which little is known to be right. Without bounces it is compared with the first 11 ms alone, in which a small error
+    /// of tension hardly moves reflections; a force that may pull makes up for part of its errors.
+    pub fn for_unfitted() -> Self {
+        Self { bounces: 0.0, pushes: false, ..Self::default() }
+    }
+
+    /// Duration of the signals' part in which there may be a force, in s: from a tap's length before the first one is expected to that
+    /// much after it, and until the last bounce.
+    pub fn span(&self) -> f64 {
+        2.0 * self.length + self.bounces
+    }
+}
 
 /// A force, and how well it explains the signals.
 #[derive(Clone, Debug, PartialEq)]
