@@ -2,7 +2,7 @@
 
 use super::force::{Force, TapOptions};
 use crate::CalibrateError;
-use crate::signals::{Band, Together};
+use crate::signals::{Band, CrossSpectra, Inversion};
 
 /// Share of the largest power at which a tap counts as heard: what comes before is weaker, and not a tap's length earlier.
 const HEARD: f64 = 0.01;
@@ -15,8 +15,9 @@ const LOUD: f64 = 0.25;
 /// Share of the recording that is quieter than what counts as noise: silence before a tap, and what follows its ringing, are more of it.
 const QUIET: f64 = 0.2;
 
-/// Share of a tap's length over which power is averaged: half would leave more of the noise's variation, twice as much blur the beginning.
-const AVERAGED: f64 = 0.25;
+/// Time in s over which power is averaged, a quarter of a tap's usual length: half of it would leave more of the noise's variation, twice
+/// as much blur the beginning.
+const AVERAGED: f64 = 0.625e-3;
 
 /// Responses found from taps at a place.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +69,7 @@ pub fn tapped(
     let lead = (options.length * rate) as usize;
     let ahead = |response: &Vec<f64>| [vec![0.0; lead], response.clone()].concat();
     let model = hears(&limited(&model.iter().map(ahead).collect::<Vec<_>>())?);
-    let back = arrival(&model, rate).saturating_sub(lead) + lead + averaged(rate);
+    let back = arrival(&model, rate).max(lead) + averaged(rate);
     let (mut cuts, mut begins) = (Vec::new(), Vec::new());
     for (tap, sensors) in heard.iter().enumerate() {
         let mut cut = limited(sensors)?;
@@ -92,8 +93,7 @@ pub fn tapped(
         *to = force.samples;
     }
     let used = cuts.into_iter().zip(&forces).filter(|(_, force)| !force.is_empty());
-    let (mut taps, pushes): (Vec<_>, Vec<_>) = used.map(|(cut, force)| (cut, force.clone())).unzip();
-    let responses = together(&mut taps, &pushes, samples, (rate, band), options.floor)?;
+    let responses = together(&used.collect::<Vec<_>>(), samples, (rate, band), options.floor)?;
     let scale = if weight > 0.0 { 1.0 / weight } else { 0.0 };
     Ok(Tapped { responses, begins, forces, unexplained: unexplained * scale })
 }
@@ -116,7 +116,7 @@ fn arrival(model: &[Vec<f64>], rate: f64) -> usize {
     powers.iter().position(|power| *power >= HEARD * most).unwrap_or(0)
 }
 
-/// Power of all sensors, each relative to its peak, summed over the last [`AVERAGED`] of a tap's usual length.
+/// Power of all sensors, each relative to its peak, summed over the last [`AVERAGED`].
 fn powers(sensors: &[Vec<f64>], rate: f64) -> Vec<f64> {
     let window = averaged(rate);
     let mut powers = vec![0.0; sensors.iter().map(Vec::len).min().unwrap_or(0)];
@@ -136,26 +136,25 @@ fn powers(sensors: &[Vec<f64>], rate: f64) -> Vec<f64> {
 
 /// Number of samples over which power is summed.
 fn averaged(rate: f64) -> usize {
-    ((AVERAGED * TapOptions::default().length * rate) as usize).max(1)
+    ((AVERAGED * rate) as usize).max(1)
 }
 
-/// The response of each sensor to all taps.
+/// The response of each sensor that explains all taps best.
 fn together(
-    taps: &mut [Vec<Vec<f64>>],
-    forces: &[Vec<f64>],
+    taps: &[(Vec<Vec<f64>>, &Vec<f64>)],
     samples: usize,
     (rate, band): (f64, Band),
     floor: f64,
 ) -> Result<Vec<Vec<f64>>, CalibrateError> {
-    let longest = |rows: &mut dyn Iterator<Item = usize>| rows.max().unwrap_or(0);
-    let length =
-        longest(&mut taps.iter().flatten().map(Vec::len)).max(longest(&mut forces.iter().map(Vec::len)));
-    taps.iter_mut().flatten().for_each(|signal| signal.resize(length, 0.0));
-    let plan = Together::new(forces, length, rate, band, floor)?;
-    let sensors = taps.first().map_or(0, Vec::len);
+    let lengths = taps.iter().flat_map(|(heard, force)| heard.iter().chain([*force]).map(Vec::len));
+    let length = lengths.max().unwrap_or(0);
+    let inversion = Inversion { band: Some(band), regularisation: floor, ..Inversion::default() };
+    let sensors = taps.first().map_or(0, |(heard, _)| heard.len());
     let response = |sensor: usize| {
-        let heard: Vec<&[f64]> = taps.iter().map(|tap| &tap[sensor][..]).collect();
-        let mut response = plan.deconvolve(&heard)?;
+        let mut spectra = CrossSpectra::new(length, rate)?;
+        taps.iter().try_for_each(|(heard, force)| spectra.add(force, &heard[sensor]))?;
+        let mut response = vec![0.0; samples.min(length)];
+        spectra.response(&inversion, &mut response)?;
         response.resize(samples, 0.0);
         Ok(response)
     };

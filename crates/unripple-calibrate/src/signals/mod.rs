@@ -17,7 +17,6 @@ mod remap;
 mod schedule;
 mod stimulus;
 mod sweep;
-mod together;
 mod transform;
 
 pub use average::{Average, Outliers};
@@ -35,7 +34,6 @@ pub use remap::{Moves, Remap};
 pub use schedule::Schedule;
 pub use stimulus::Stimulus;
 pub use sweep::Sweep;
-pub use together::Together;
 
 use unripple_core::OutOfRange;
 use unripple_dsp::DspError;
