@@ -21,7 +21,7 @@ impl Fitted {
     /// [`CalibrateError::Core`] for more samples than can be held.
     pub fn sampled(&self, points: &[Point], samples: usize) -> Result<SampledResponses, CalibrateError> {
         let reached = self.reached();
-        let all = sample(reached.map_or(self.modal(), |reached| &reached.responses), points, samples);
+        let all = sample(self.sampleable(), points, samples);
         let (count, rate) = (all.ports.len(), all.conditions.rate);
         let coiled = (0..count).any(|actuator| self.coil(actuator).is_some());
         if reached.is_none() && !coiled {
