@@ -6,9 +6,8 @@ use crate::{Cholesky, Mat};
 /// earlier.
 const LEVEL: f64 = 1e-9;
 
-/// The numbers λ ≥ 0 that minimise ½ λᵀQλ − bᵀλ for a positive definite Q, from a first guess of
-/// as many, of which negative ones and missing ones count as 0: an
-/// active set as in Lawson and Hanson (1974), Solving Least Squares Problems, chapter 23.
+/// The numbers λ ≥ 0 that minimise ½ λᵀQλ − bᵀλ for a positive definite Q, from a first guess of as many, of which
+/// negative and missing ones count as 0: an active set as in Lawson and Hanson (1974), Solving Least Squares Problems, chapter 23.
 ///
 /// `form` gives the elements of Q. Where rounding would let the set go round in circles, what was reached is kept, which is λ ≥ 0 too.
 ///
@@ -19,9 +18,8 @@ const LEVEL: f64 = 1e-9;
 /// let found = non_negative(|i, j| form[(i, j)], &[1.0, -1.0], vec![0.0; 2]);
 /// assert!((found[0] - 0.5).abs() < 1e-12 && found[1] == 0.0);
 /// ```
-pub fn non_negative(form: impl Fn(usize, usize) -> f64, slope: &[f64], guess: Vec<f64>) -> Vec<f64> {
+pub fn non_negative(form: impl Fn(usize, usize) -> f64, slope: &[f64], mut guess: Vec<f64>) -> Vec<f64> {
     let count = slope.len();
-    let mut guess = guess;
     guess.resize(count, 0.0);
     guess.iter_mut().for_each(|value| *value = value.max(0.0));
     let mut found = Descent { form, slope, value: guess, free: Vec::new() };
