@@ -10,10 +10,18 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use unripple::core::{ModalResponses, Surface};
 use unripple_calibrate::measure::MeasureOptions;
-use unripple_store::{LibraryPlan, OutputDir};
+use unripple_store::{Library, LibraryPlan, OutputDir};
 
 /// The key of a plan's provenance that counts the points measured by a probe or by taps.
 pub(super) const PROBED: &str = "probed points";
+
+/// The key of a plan's provenance that says by what points were measured.
+const BY: &str = "by";
+
+/// Whether a library's points were measured by taps, not by a probe.
+pub(crate) fn by_taps(library: &Library) -> bool {
+    library.plan().provenance.get(BY).is_some_and(|by| by == "tap")
+}
 
 /// All that is known before anything is measured.
 pub(crate) struct Campaign<'a> {
@@ -70,7 +78,7 @@ impl Campaign<'_> {
             ("software".to_owned(), format!("unripple {}", env!("CARGO_PKG_VERSION"))),
             ("created".to_owned(), record::now()),
             ("device".to_owned(), format!("{:?}", ask.device.device).to_lowercase()),
-            ("by".to_owned(), by),
+            (BY.to_owned(), by),
             (PROBED.to_owned(), self.places.probed.to_string()),
             (before::SWEEP.to_owned(), settings.sweep.to_string()),
             (before::SWEPT.to_owned(), settings.swept(surface).map(|hz| hz.to_string()).join(" ")),

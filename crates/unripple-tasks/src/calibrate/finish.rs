@@ -1,7 +1,6 @@
 //! The record of a measurement in its library: settings before it begins, doubts when all points are there.
 
-use super::By;
-use super::campaign::Campaign;
+use super::campaign::{Campaign, by_taps};
 use super::shelf::Shelf;
 use super::verify;
 use crate::{Record, TaskError, own};
@@ -233,8 +232,7 @@ fn useless(shelf: &mut Shelf) -> Result<(), TaskError> {
     };
     let (bad, good) = (count(PointState::Bad), count(PointState::Measured));
     let found = (bad > 0 && good == 0).then(|| {
-        let tapped = shelf.library.plan().provenance.get("by").is_some_and(|by| by == "tap");
-        let (by, look) = if tapped { ("taps", "the sensors") } else { ("the probe", "the probe and at the levels") };
+        let (by, look) = if by_taps(&shelf.library) { ("taps", "the sensors") } else { ("the probe", "the probe and at the levels") };
         let all = if bad == 1 { "is" } else { "are all" };
         Doubt::of(
             CHECK,
@@ -249,7 +247,7 @@ fn useless(shelf: &mut Shelf) -> Result<(), TaskError> {
 }
 
 /// A number of points in words.
-fn points(count: usize) -> String {
+pub(super) fn points(count: usize) -> String {
     format!("{count} point{}", if count == 1 { "" } else { "s" })
 }
 
@@ -291,7 +289,7 @@ fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
             "said": format!(
                 "sensors are {apart:.3} times as loud as the {}, so they must be in another unit: the actuators' own points \
                  are used in no metric (`input_scales` gives their scale)",
-                if campaign.ask.by == By::Tap { "responses to taps" } else { "probe" }
+                if by_taps(&shelf.library) { "responses to taps" } else { "probe" }
             ),
         }),
         Some(apart) => json!({ "over_probe": apart, "left_out": false }),

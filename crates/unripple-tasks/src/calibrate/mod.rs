@@ -22,6 +22,7 @@ mod verify;
 mod wires;
 
 pub use ask::{Ask, By, InputScales};
+pub(crate) use campaign::by_taps;
 pub(crate) use devices::{open, open_under};
 pub use hands::{Hands, nobody};
 pub use levels::Levels;

@@ -25,7 +25,7 @@ pub struct Shelf {
     /// Factor on all that is measured at a point.
     probe: f64,
     /// Factor on the signal of each actuator's sensor.
-    sensors: Vec<f64>,
+    pub sensors: Vec<f64>,
     /// Actuators that are left out: their responses are zero, since what was measured of them is noise.
     pub without: Vec<usize>,
     /// Actuators whose sensor is dead: their own points need not be measured.

@@ -1,6 +1,7 @@
 //! Measuring by taps: the model by which the force of each is found.
 
 use super::campaign::Campaign;
+use super::finish::points as counted;
 use super::shelf::{SAID, Shelf};
 use crate::TaskError;
 use crate::fit;
@@ -24,8 +25,8 @@ pub(super) fn session(
     settings: &MeasureOptions,
 ) -> Result<TapSession, TaskError> {
     let surface = known.surface;
-    let scales = surface.actuators.iter().map(|actuator| known.scales.input(&actuator.name)).collect();
-    let session = TapSession::new(surface, layout, wires, known.model.clone(), settings)?.by_scales(scales);
+    let session = TapSession::new(surface, layout, wires, known.model.clone(), settings)?
+        .by_scales(shelf.sensors.clone());
     let missing = shelf.missing();
     if missing.is_empty() {
         return Ok(session);
@@ -48,12 +49,8 @@ fn said(library: &Library) -> Option<String> {
     let log = |point: usize| library.logged_point(point)?.get(KEY);
     let unfitted = |point: &usize| log(*point).is_some_and(|log| log["fitted"] == false);
     let points: Vec<usize> = (0..library.points().len()).filter(unfitted).collect();
-    let why = points.last().and_then(|point| log(*point)?["why"].as_str()).unwrap_or("not said");
-    let count = match points.len() {
-        0 => return None,
-        1 => "1 point".to_owned(),
-        count => format!("{count} points"),
-    };
+    let (last, count) = (points.last()?, counted(points.len()));
+    let why = log(*last).and_then(|log| log["why"].as_str()).unwrap_or("not said");
     Some(format!(
         "at {count} the forces of taps are found by the model of the surface file, since none was fitted to the responses between \
          actuators ({why}): beside masses that the file does not know, and where taps bounce, responses may be wrong"

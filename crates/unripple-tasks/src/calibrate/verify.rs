@@ -1,5 +1,6 @@
 //! Check of the measured points against a model that is fitted to what the sensors recorded.
 
+use super::campaign::by_taps;
 use super::shelf::{CHECK, Shelf};
 use crate::TaskError;
 use crate::late::comes;
@@ -46,7 +47,7 @@ pub fn check(
         probe_delay: settings.probe_delay,
         removed: taken.iter().map(|taken| taken.delay).collect(),
         dead: shelf.without.clone(),
-        probe: shelf.library.plan().provenance.get("by").is_none_or(|by| by != "tap"),
+        probe: !by_taps(&shelf.library),
         numbers: points.iter().map(|p| p + 1).collect(),
         ..VerifyOptions::default()
     };

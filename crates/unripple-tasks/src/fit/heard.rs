@@ -1,6 +1,7 @@
 //! The measurements in a library: responses between actuators, and responses at all other points.
 
 use crate::calibrate::before::SWEPT;
+use crate::calibrate::by_taps;
 use crate::own;
 use crate::{Progress, TaskError};
 use unripple::core::{SampledResponses, Surface};
@@ -76,7 +77,7 @@ impl Heard {
         let others: Vec<usize> = (0..all.points.len()).filter(|p| !own.contains(&Some(*p))).collect();
         let probed = all.select(&others).map_err(TaskError::work)?;
         let numbers = others.iter().map(|p| numbers[*p] + 1).collect();
-        let probe = library.plan().provenance.get("by").is_none_or(|by| by != "tap");
+        let probe = !by_taps(library);
         Ok(Self { measured, probed, numbers, dead, probe, band })
     }
 
