@@ -5,7 +5,9 @@ use super::law::Law;
 use super::take::{Judge, Verdict};
 use super::{Channel, Hearing, MeasureOptions, Rig, Wires, latency, record};
 use crate::CalibrateError;
+use crate::fit::Measured;
 use crate::signals::{Band, Deconvolver, Delay, Inversion, Schedule, Sweep, shift};
+use crate::verify::late;
 use unripple_core::{Layout, ModalResponses, PROBE, Point, Surface};
 
 /// Longest latency that is searched, in s. Longer than any sound system's buffers; each second of it is a second more of every
@@ -21,6 +23,9 @@ const CLEAR_DB: f64 = 15.0;
 
 /// Largest number of samples of the drive of all actuators and of all recordings of a place: 4 GiB. Twice as many take twice the memory.
 const MOST_VALUES: usize = 1 << 29;
+
+/// Uncertainty of the latency, in samples, up to which it is good enough without a fitted model, which takes some seconds.
+const AGREE: f64 = 0.03;
 
 /// Largest number of sensors from which clock, gaps and tension are found: more give the same and take longer.
 const TELLING: usize = 8;
@@ -252,7 +257,8 @@ impl Session {
     }
 
     /// Latency of the device and its uncertainty, both in samples: from the reference channel if there is one (uncertainty 0),
-    /// otherwise from responses between actuators, by [`latency`]. `None` if there is neither reference nor sensor.
+    /// otherwise from responses between actuators, by [`latency`]; where that is uncertain for damping that couples modes, also by a
+    /// model that is fitted to these responses ([`late`]), unless [`MeasureOptions::model`] is false. `None` if there is neither reference nor sensor.
     ///
     /// # Errors
     /// Those of the rig, of [`record`] and of [`latency`]; of [`Session::measure`] for clocks and samples lost.
@@ -288,8 +294,29 @@ impl Session {
             }
         }
         let hearing = Hearing::of(&self.surface, model)?;
-        let [late, spread] = latency(&windows, &hearing, LEAD, self.sweep.rate, self.band)?;
+        let [mut late, spread] = latency(&windows, &hearing, LEAD, self.sweep.rate, self.band)?;
+        if self.options.model && !hearing.in_step() && spread > AGREE {
+            // The phases of tones out of step are corrected by the file's model. A fitted one gives another estimate, and each counts
+            // by its uncertainty.
+            if let Some([left, error]) = self.left(&windows, late) {
+                late += left * spread.powi(2) / (spread.powi(2) + error.powi(2));
+            }
+        }
         Ok(Some([late + known, spread]))
+    }
+
+    /// What a latency leaves of the delay of responses between actuators, and the uncertainty of that, in samples, by a model fitted to
+    /// them; `None` without a good one.
+    fn left(&self, windows: &[Vec<Vec<f64>>], latency: f64) -> Option<[f64; 2]> {
+        let (count, rate) = (windows.len(), self.sweep.rate);
+        let pair = |n: usize| match windows[n % count].get(n / count) {
+            Some(window) => shift(window, -latency).split_off(LEAD),
+            None => Vec::new(),
+        };
+        let pairs = (0..count * count).map(pair).collect();
+        let measured = Measured::reciprocal(rate, pairs, [self.sweep.from, self.sweep.to]).ok()?;
+        let left = late(&self.surface, &measured.limited_to(self.band), &self.options.without)?;
+        Some([left.value * rate, left.error * rate])
     }
 
     /// The responses to all actuators from the recording of one input, `[actuator][sample]`, each as long as the schedule keeps

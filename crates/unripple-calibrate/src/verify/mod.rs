@@ -3,6 +3,7 @@
 mod checker;
 mod copies;
 mod judge;
+mod late;
 mod levels;
 mod quick;
 mod sensors;
@@ -10,6 +11,7 @@ mod sheet;
 mod verdict;
 mod words;
 
+pub use late::late;
 pub use verdict::{Checked, Doubted, PointVerdict, Verified, VerifyOptions};
 
 use crate::CalibrateError;

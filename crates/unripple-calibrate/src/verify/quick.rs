@@ -23,7 +23,7 @@ const LINES: usize = 12;
 const NO_MODEL: f64 = 0.35;
 
 /// Unexplained share below which a model is a good one; one sensor in `MOST_ODD` may be left out to get there.
-const SPOILT: f64 = 0.1;
+pub(super) const SPOILT: f64 = 0.1;
 const MOST_ODD: usize = 3;
 
 /// Power of an actuator's responses, relative to the median, below which it counts as silent.
@@ -185,7 +185,11 @@ impl Quick {
 }
 
 /// Actuators that work as drives and as sensors, [`ENOUGH`] at most, far from each other.
-fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Result<Vec<usize>, String> {
+pub(super) fn chosen(
+    surface: &Surface,
+    measured: &Measured,
+    options: &VerifyOptions,
+) -> Result<Vec<usize>, String> {
     let all = surface.actuators.len();
     let pairs = measured.pairs.iter().flat_map(|p| &p.responses);
     let powers: Vec<f64> = pairs.map(|h| h.iter().map(|x| x * x).sum()).collect();
@@ -215,7 +219,7 @@ fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Re
 }
 
 /// The measurement with some of the actuators only.
-fn among(measured: &Measured, actuators: &[usize], all: usize) -> Measured {
+pub(super) fn among(measured: &Measured, actuators: &[usize], all: usize) -> Measured {
     let mut part = measured.clone();
     let count = actuators.len();
     if let (Some(part), Some(pairs)) = (&mut part.pairs, &measured.pairs) {
@@ -226,7 +230,7 @@ fn among(measured: &Measured, actuators: &[usize], all: usize) -> Measured {
 }
 
 /// The lowest frequencies (Hz) that the measurement does not attenuate, up to about `modes` modes.
-fn band(surface: &Surface, measured: &Measured, modes: usize) -> Result<[f64; 2], String> {
+pub(super) fn band(surface: &Surface, measured: &Measured, modes: usize) -> Result<[f64; 2], String> {
     let medium = Medium::of(&surface.sheet);
     let (area, rim) = (surface.outline.area(), surface.outline.perimeter());
     // Weyl's law for a fixed rim.

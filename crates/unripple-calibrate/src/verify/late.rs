@@ -1,0 +1,49 @@
+//! The delay of responses between actuators, by a model that is fitted to them.
+
+use super::quick::{SPOILT, among, band, chosen};
+use super::verdict::VerifyOptions;
+use crate::fit::{Estimate, FitOptions, Measured, fit};
+use unripple_core::Surface;
+
+/// Number of modes in the band that is fitted. More take longer; with fewer, a delay by a hundredth of a sample is not seen.
+const MODES: usize = 20;
+
+/// Highest frequency of the modes used, relative to the top of the band: what is left of modes above looks like a delay, a few hundredths
+/// of a sample with 2.5.
+const REACH: f64 = 4.0;
+
+/// Delay in s, the same for all, that responses between actuators have relative to a model [fitted](crate::fit) to them in the lowest
+/// modes. `dead` are indices of actuators that are left out. `None` if no model explains the responses well enough.
+///
+/// Where damping couples modes, the phases of tones depend on the surface, and a model that was not fitted does not tell them from a
+/// delay.
+///
+/// ```
+/// use unripple_calibrate::{Measured, signals::shift, verify};
+/// use unripple_core::{Point, Responses};
+/// use unripple_physics::{ResponseOptions, design::papers_surface, responses, sample};
+///
+/// let mut surface = papers_surface();
+/// surface.emission.band[1] = 600.0;
+/// let above = ResponseOptions { max_hz: Some(1200.0), ..ResponseOptions::default() };
+/// let Responses::Modal(modal) = responses(&surface, &above)? else { unreachable!() };
+/// let own: Vec<Point> = surface.actuators.iter().map(|a| a.at).collect();
+/// let heard = sample(&modal, &own, 4800);
+/// let signal = |n: usize| heard.response(n / 8, n % 8).iter().map(|v| f64::from(*v)).collect::<Vec<_>>();
+/// let measured = Measured::pairs(48e3, (0..64).map(|n| shift(&signal(n), 0.3)).collect(), 1e-3);
+/// let found = verify::late(&surface, &measured, &[]).expect("a model fits");
+/// assert!((found.value * 48e3 - 0.3).abs() < 0.02);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn late(surface: &Surface, measured: &Measured, dead: &[usize]) -> Option<Estimate> {
+    let options = VerifyOptions { dead: dead.to_vec(), ..VerifyOptions::default() };
+    let actuators = chosen(surface, measured, &options).ok()?;
+    let mut part = surface.clone();
+    part.actuators = actuators.iter().map(|a| surface.actuators[*a].clone()).collect();
+    let heard = among(measured, &actuators, surface.actuators.len());
+    let band = band(surface, measured, MODES).ok()?;
+    part.emission.band = band;
+    let fitted =
+        fit(&part, &heard, &FitOptions { band: Some(band), reach: REACH, ..FitOptions::default() }).ok()?;
+    (fitted.unexplained() < SPOILT).then_some(fitted.late)
+}
