@@ -24,8 +24,9 @@ const CLEAR_DB: f64 = 15.0;
 /// Largest number of samples of the drive of all actuators and of all recordings of a place: 4 GiB. Twice as many take twice the memory.
 const MOST_VALUES: usize = 1 << 29;
 
-/// Uncertainty of the latency, in samples, up to which it is good enough without a fitted model, which takes some seconds.
-const AGREE: f64 = 0.03;
+/// Uncertainty of the latency, in samples, up to which no model is fitted: the latency is wanted to a twentieth, and the fit takes ten
+/// seconds. At half of it, a fit would be made where housings are so strongly damped that it is 0.15 samples off.
+const AGREE: f64 = 0.05;
 
 /// Largest number of sensors from which clock, gaps and tension are found: more give the same and take longer.
 const TELLING: usize = 8;
