@@ -11,9 +11,9 @@ use unripple_core::{Edge, Outline};
 /// left. Halved, the strongest singularities get one or two more rings of triangles.
 const FLOOR: f64 = 1e-9;
 /// Relative error of the lowest eigenvalues by rounding where a bent sheet moves at a corner, for edges there as long as the sheet is
-/// wide, measured (edges of 2e-7 widths leave 2e-5 for each such corner). A tenth of it, and edges would be chosen for which rounding is all
-/// of the error.
-const ROUNDED: f64 = 1e-18;
+/// wide: measured at a slot in a free plate, where edges of 2e-6 widths leave 1e-4 at four such corners. A tenth of it, and edges would be
+/// chosen for which rounding is all of the error.
+const ROUNDED: f64 = 1e-16;
 /// Power up to which an element at a corner misses the share [`LOOSE`] of the singular energy it holds. See
 /// [`missed`].
 const ROUGH: f64 = 0.6;
