@@ -23,7 +23,7 @@ pub(super) const PACE: f64 = 6.0;
 /// Share of the accuracy asked for that all corners together may take.
 const AT_CORNERS: f64 = 0.2;
 
-/// Accuracy up to which edges grow by [`GROWTH`] per distance from corners and masses; for more accuracy by less, since the error that
+/// Accuracy up to which edges grow by [`GROWTH`] per distance from shorter ones; for more accuracy by less, since the error that
 /// rings of triangles around them leave falls as the eighth power of their growth.
 const COMMON: f64 = 1e-4;
 
@@ -74,7 +74,7 @@ pub(super) struct Plan {
     size: f64,
     /// Accuracy that each corner is graded for.
     accuracy: f64,
-    /// Growth of edges per distance from corners and masses.
+    /// Growth of edges per distance from shorter ones.
     growth: f64,
     /// Factor by which edges along curves and in narrow places are shorter than needed to follow them.
     finer: f64,
@@ -141,8 +141,7 @@ impl Plan {
             finer: self.finer,
         };
         let sizing = sizing.refined(&self.corners, self.bends, self.accuracy);
-        let graded = sizing.corners.iter().any(|edge| edge.is_finite()) || !self.masses.is_empty();
-        Sizing { growth: if graded { self.growth.clamp(LEAST_GROWTH, GROWTH) } else { GROWTH }, ..sizing }
+        Sizing { growth: self.growth.clamp(LEAST_GROWTH, GROWTH), ..sizing }
     }
 
     /// A plan with edges `ratio` times longer; at corners and masses so much longer that the errors by them rise as the power [`PACE`]
