@@ -45,9 +45,6 @@ const RELAXED: f64 = 3.0;
 /// times more would allow errors of 1e-8.
 const RESIDUAL: f64 = 1e-5;
 
-/// Highest order in the edge length at which frequencies converge, of a membrane and with bending.
-const ORDERS: [f64; 2] = [10.0, 8.0];
-
 /// Modes of a surface's sheet below the top of `bounds`.
 pub(super) fn solve(surface: &Surface, bounds: &Bounds) -> Result<Found, PhysicsError> {
     match polygon::membrane(surface, bounds)? {
@@ -65,7 +62,6 @@ pub(super) fn solve(surface: &Surface, bounds: &Bounds) -> Result<Found, Physics
 /// The modes on a mesh fine enough for the accuracy, and a bound of the relative error of their frequencies.
 fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), PhysicsError> {
     let fabric = Fabric::of(surface)?;
-    let order = ORDERS[usize::from(fabric.bends())];
     let plan = affordable(surface, &fabric, bounds)?;
     let coarse = plan.coarser(COARSER);
     let mesh = |number: usize| Observed::here().within(format!("mesh {number} of {} at most", 2 + ROUNDS));
@@ -83,7 +79,7 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
             fine => fine?,
         };
         levels.push(fine.level());
-        let error = rates::error(&levels, order) + plan.unresolved();
+        let error = rates::error(&levels) + plan.unresolved();
         if error <= bounds.accuracy {
             return Ok((fine, error));
         }

@@ -31,12 +31,12 @@ const ROUNDING: f64 = 2e-9;
 const APART: f64 = 1.12;
 
 /// A bound of the relative error of any frequency of the last level, from three of which each is clearly finer than the one before.
-/// `order` is the highest at which any part of the error falls. Infinite unless there are two levels with about as many modes.
+/// Infinite unless there are two levels with about as many modes.
 ///
 /// Where edges get shorter by a factor a and then by b, an error C h^q leaves differences of the ratio (a^q - 1)/(1 - b^-q), from
-/// which q follows (Richardson), and the error d/(b^q - 1) with d the last difference. That of the difference before, taken to fall as
-/// fast as any does, is a lower limit, so that no chance agreement of two meshes is taken for accuracy.
-pub(super) fn error(levels: &[Level], order: f64) -> f64 {
+/// which q follows (Richardson), and the error d/(b^q - 1) with d the last difference. That of the difference before, taken to fall at
+/// [`PACE`], is a lower limit, so that no chance agreement of two meshes is taken for accuracy.
+pub(super) fn error(levels: &[Level]) -> f64 {
     let coarser = |than: &Level| levels.iter().rev().find(|level| level.edge > APART * than.edge);
     let Some(fine) = levels.last() else { return f64::INFINITY };
     let Some(middle) = coarser(fine) else { return f64::INFINITY };
@@ -51,7 +51,7 @@ pub(super) fn error(levels: &[Level], order: f64) -> f64 {
         }
         let c = around(&before, j);
         let measured = d / (b.powf(rate(c / d, [a, b])) - 1.0);
-        measured.max(c / ((a.powf(order) - 1.0) * b.powf(order)))
+        measured.max(c / ((a.powf(PACE) - 1.0) * b.powf(PACE)))
     };
     SAFETY * (0..last.len()).map(of).fold(0.0, f64::max) + ROUNDING
 }
@@ -127,7 +127,7 @@ mod tests {
             for fast in [0.0, 1e-4, 1e-3, 1e-2, 0.1] {
                 for (slow, order) in [(1e-4, 3.0), (1e-4, 5.0), (1e-3, 6.0), (3e-3, 7.0)] {
                     let (levels, exact) = levels(&[(fast, 8.0), (slow, order)], finer);
-                    let stated = error(&levels, 8.0);
+                    let stated = error(&levels);
                     assert!(stated > exact, "{finer:?} {fast} {slow} {order}: {stated:e} {exact:e}");
                     assert!(stated < 20.0 * exact, "{finer:?} {fast} {slow} {order}: {stated:e} {exact:e}");
                 }
@@ -140,9 +140,9 @@ mod tests {
         let (mut levels, exact) = levels(&[(1e-3, 7.0)], [1.3, 1.3]);
         // As if by chance.
         levels[1].squares = levels[2].squares.iter().map(|s| s * (1.0 + 1e-9)).collect();
-        assert!(error(&levels, 8.0) > 0.5 * exact);
+        assert!(error(&levels) > 0.5 * exact);
         // Two meshes alone are taken to converge slowly.
-        let two = error(&levels[..2], 8.0);
+        let two = error(&levels[..2]);
         assert!(two > exact, "{two:e} {exact:e}");
     }
 
@@ -150,7 +150,7 @@ mod tests {
     fn meshes_with_unlike_numbers_of_modes_bound_nothing() {
         let (mut levels, _) = levels(&[(1e-3, 7.0)], [1.3, 1.3]);
         levels[1].squares.truncate(20);
-        assert!(error(&levels, 8.0).is_infinite() && error(&levels[..1], 8.0).is_infinite());
+        assert!(error(&levels).is_infinite() && error(&levels[..1]).is_infinite());
     }
 
     #[test]
