@@ -67,7 +67,7 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("waveforms and path", "--waveform and --path"),
 ];
 
-/// The option that sets a field of an ask; for fields separated by commas, the options of all.
+/// The option that sets a field of a request; for fields separated by commas, the options of all.
 pub fn option(field: &str) -> String {
     let one = |name: &str| match OTHERWISE.iter().find(|(field, _)| *field == name) {
         Some((_, option)) => (*option).to_owned(),

@@ -22,7 +22,7 @@ pub struct Measured {
     /// Number of outside points over that of all points, from 0 to 1; on a grid, the share of the surface over which
     /// ratios are taken.
     pub outside_share: f64,
-    /// The highest level felt at any outside point over all spans, in dB above the threshold; `None` without outside
+    /// The highest level felt at any outside point over all time spans, in dB above the threshold; `None` without outside
     /// points, or where none of them moves.
     pub felt_outside_db: Option<f64>,
     /// Maps and snapshots of the field; not part of the report.
@@ -159,11 +159,11 @@ pub struct Maps {
     pub grid: Option<Grid>,
     /// Whether each point is outside every focal disc.
     pub outside: Vec<bool>,
-    /// Largest magnitude of the velocity over all spans, in m/s.
+    /// Largest magnitude of the velocity at each point over all time spans, in m/s.
     pub peak_velocity: Vec<f32>,
-    /// Largest magnitude of the displacement over all spans, in metres.
+    /// Largest magnitude of the displacement at each point over all time spans, in metres.
     pub peak_displacement: Vec<f32>,
-    /// Largest magnitude of the weighted displacement over all spans, in units of the threshold: 1 is just felt.
+    /// Largest magnitude of the weighted displacement at each point over all time spans, in units of the threshold: 1 is just felt.
     pub felt_peak: Vec<f32>,
     /// The field at each target's focal instant T.
     pub at_peak: Vec<Snapshot>,

@@ -34,7 +34,7 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// Joins a surface, the maker of its drives, a set of effects, the sources of touches and a device.
+    /// Combines a surface, the worker that computes its drives, a set of effects, the sources of touches and a device.
     ///
     /// # Errors
     /// [`LiveError::Unlike`] for a device of another rate or with other outputs than the surface has actuators;

@@ -54,7 +54,7 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    /// A sound that the player has not been given yet, under a name, a number that is used once.
+    /// A sound that the player has not been given yet; `name` is a number that no other sound has.
     pub fn new(sounding: Sounding, name: u64) -> Self {
         Self { sounding, name, hold: None, input: None, told: false, again: 0, hopeless: false }
     }

@@ -104,7 +104,7 @@ impl Bar {
         }
     }
 
-    /// Room in points that the bar needs to the right of the field.
+    /// Room in points that the colour bar needs to the right of the map.
     pub fn room(&self, style: &Style) -> f64 {
         let title = if self.full_title().is_empty() { 0.0 } else { 1.5 * GAP + 1.2 * style.label_pt };
         AWAY + WIDTH + TICK + GAP + self.ruler.label_width(style.tick_pt) + title + 1.0

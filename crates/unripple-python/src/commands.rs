@@ -97,7 +97,7 @@ pub(crate) fn asked<A: Request>(ask: &str) -> Result<A, TaskError> {
     unripple_tasks::commands::asked(json(ask)?)
 }
 
-/// The value that a JSON text of an ask says.
+/// The value that a JSON text of a request says.
 fn json(ask: &str) -> Result<Value, TaskError> {
     serde_json::from_str(ask).map_err(|error| TaskError::Input(format!("ask: expected JSON, found {error}")))
 }
@@ -154,7 +154,7 @@ fn plays(command: &str, ask: &Value) -> bool {
         || command == rerun::Ask::COMMAND && again().is_ok_and(|record| record.command == play::Ask::COMMAND)
 }
 
-/// The task of that name with an ask, as work to do.
+/// The task of that name with a request, as work to do.
 fn named(
     command: String,
     ask: Value,

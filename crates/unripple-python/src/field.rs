@@ -216,7 +216,7 @@ impl Field {
         Ok(PyBytes::new(py, &found))
     }
 
-    /// The figures that the task writes in its folder: SVG text by name. They are drawn each time; none if the ask wants none, and none of
+    /// The figures that the task writes in its folder: SVG text by name. They are drawn each time; none if the request wants none, and none of
     /// responses without a scale.
     #[getter]
     fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

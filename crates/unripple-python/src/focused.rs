@@ -38,7 +38,7 @@ impl Focused {
 
 #[pymethods]
 impl Focused {
-    /// The report. Its JSON has a record, the key "run", if an ask makes the same again: for the responses of a surface in its own band, and
+    /// The report. Its JSON has a record, the key "run", if a request makes the same again: for the responses of a surface in its own band, and
     /// those of a library.
     #[getter]
     fn done(&self) -> Done {
@@ -51,7 +51,7 @@ impl Focused {
         self.drive.clone_ref(py)
     }
 
-    /// The figures that the task writes in its folder: SVG text by name. They are drawn each time; none if the ask wants none.
+    /// The figures that the task writes in its folder: SVG text by name. They are drawn each time; none if the request wants none.
     #[getter]
     fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         drawn(py, &self.draw)

@@ -42,7 +42,7 @@ impl Responses {
         Ok(Self { held: Arc::new(held), surface })
     }
 
-    /// Does a task on these responses; its ask is JSON.
+    /// Does a task on these responses; its request is JSON.
     fn task<A: Request + Send + 'static, R: Send + 'static>(
         &self,
         py: Python<'_>,
@@ -310,7 +310,7 @@ impl Responses {
 
     /// Evaluates what a drive does to the surface. `ask` is that of the task `field`, as JSON in SI units; its surface is these responses, its
     /// drive is `drive`, and nothing is written. A surface is evaluated on modes up to twice its band, or up to `max_hz` where the responses have
-    /// one, under their fingers if the ask has none.
+    /// one, under their fingers if the request has none.
     ///
     /// Raises what the task raises, and AskError of an output.
     #[pyo3(signature = (ask, drive, progress=None, threads=None))]

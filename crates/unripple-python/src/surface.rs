@@ -71,7 +71,7 @@ impl Surface {
         to_toml(&self.inner)
     }
 
-    /// JSON that names this surface in the ask of a task: a built-in surface by its name, any other by its text.
+    /// JSON that names this surface in the request of a task: a built-in surface by its name, any other by its text.
     #[getter(ask)]
     fn ask_json(&self, py: Python<'_>) -> PyResult<String> {
         serde_json::to_string(&self.ask).map_err(|error| raised(py, TaskError::work(error)))
@@ -128,7 +128,7 @@ impl Surface {
         rims.map(|rim| coordinates(py, rim)).collect()
     }
 
-    /// Refuses an ask, JSON, that makes no sense on this surface, by what can be told before there are modes: of the task `focus`, `waveform` or
+    /// Refuses a request, JSON, that makes no sense on this surface, by what can be told before there are modes: of the task `focus`, `waveform` or
     /// `stroke`, or of `field` with the drive that is to be evaluated.
     ///
     /// Raises what the task raises, and AskError for another task, or `field` without a drive.

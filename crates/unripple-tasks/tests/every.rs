@@ -1,4 +1,4 @@
-//! What is true of every task: its ask goes through JSON and back, an unknown key is refused, and one that is cancelled before it begins
+//! What is true of every task: its request goes through JSON and back, an unknown key is refused, and one that is cancelled before it begins
 //! does nothing.
 
 #[path = "every/by_name.rs"]

@@ -24,7 +24,7 @@ pub struct Mapping {
     pub offset: Point,
     /// Width and height of that area, in m.
     pub size: (f64, f64),
-    /// Whether left and right change places, as they do for a camera that looks from below. Done first.
+    /// Whether left and right change places, as they do for a camera that looks from below. Applied before turning and scaling.
     pub mirror: bool,
     /// Quarter turns anticlockwise, done after mirroring.
     pub turns: u8,

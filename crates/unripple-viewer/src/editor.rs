@@ -34,7 +34,7 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// An editor that starts from the instrument that is played now.
+    /// An editor that starts from the surface and settings that are played now.
     pub fn new(instrument: &Instrument, told: Settled) -> Self {
         let draft = Draft::new(instrument.spec.surface.clone());
         let spec = instrument.spec.clone();

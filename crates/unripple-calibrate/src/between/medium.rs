@@ -20,7 +20,7 @@ const LEAST: f64 = 1e-6;
 pub(crate) struct SpectralLine {
     /// Wavenumber, in rad/m.
     pub k: f64,
-    /// Largest wavenumber of the nugget's waves, in rad/m.
+    /// Largest wavenumber of the waves other than `k`, in rad/m.
     pub stray_k: f64,
     /// Share (0 to 1) of the field's power in the nugget: waves of wavenumbers other than `k`.
     pub nugget: f64,

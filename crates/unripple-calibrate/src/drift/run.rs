@@ -28,7 +28,7 @@ pub(super) struct Sheet {
 /// over the samples around it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Instants {
-    /// Sample numbers of the instants, ascending.
+    /// Numbers of the samples at which the drift is computed, ascending.
     pub at: Vec<usize>,
     /// Number of instants at the start of `at` that are single samples, not means.
     pub single: usize,

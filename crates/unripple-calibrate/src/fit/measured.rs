@@ -20,8 +20,8 @@ pub struct Measured {
     pub taps: Vec<Tap>,
 }
 
-/// Responses of every actuator, sensing, to every actuator, driven: sensor signal per unit impulse of drive, sample 0 just
-/// after the impulse.
+/// Response of each actuator, used as a sensor, to each driven actuator: sensor signal per unit impulse of drive, sample 0
+/// just after the impulse.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pairs {
     /// Response of actuator `i` to actuator `j` at `j · N + i`, all of one length; an empty one was not measured.

@@ -90,7 +90,7 @@ impl Case<'_> {
         columns(&self.blocks(values, answers, unknowns), unknowns.len())
     }
 
-    /// The rows of every response and every tap, with derivatives where unknowns are given.
+    /// The rows of the residual for every response and every tap on the surface, with derivatives where unknowns are given.
     pub fn blocks(&self, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Vec<Block> {
         let (pairs, taps) = (self.spectra.pairs.len(), self.spectra.taps.len());
         (0..pairs + taps)

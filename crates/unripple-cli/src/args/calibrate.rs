@@ -30,7 +30,7 @@ pub struct DeviceOptions {
     /// Card: samples per block.
     #[arg(long, value_name = "N", default_value_t = 256, help_heading = heading::CARD)]
     pub card_block: usize,
-    /// Tape (recordings made elsewhere): folder for the file to play and for the recordings of it.
+    /// For recordings made elsewhere (device `tape`): folder to which the file to play is written, and from which its recordings are read.
     #[arg(long, value_name = "DIR", help_heading = heading::TAPE)]
     pub tape: Option<PathBuf>,
     /// Tape: what is connected to each channel of a recording, in order; by default the sensors of all actuators, by name, then

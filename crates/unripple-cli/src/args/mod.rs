@@ -38,13 +38,13 @@ pub struct Arguments {
     #[arg(long, global = true, value_name = "KEY=VALUE", help_heading = heading::EVERY)]
     pub set: Vec<String>,
     /// Compute natural frequencies to this relative accuracy, 1e-12 to 0.1, as `--set accuracy=RATIO` does. By default 1e-6, or 1e-4
-    /// where `focus` and others need a mesh.
+    /// for `focus` and the like on surfaces that need a mesh.
     #[arg(long, global = true, value_name = "RATIO", help_heading = heading::EVERY)]
     pub accuracy: Option<String>,
     /// Tell each stage of the work on standard error, with the time since the beginning.
     #[arg(short, long, global = true, conflicts_with = "quiet", help_heading = heading::EVERY)]
     pub verbose: bool,
-    /// Tell nothing on standard error but warnings and errors.
+    /// Print nothing but warnings and errors on standard error.
     #[arg(short, long, global = true, help_heading = heading::EVERY)]
     pub quiet: bool,
     /// The command to perform.

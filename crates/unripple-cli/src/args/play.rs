@@ -63,7 +63,7 @@ pub struct TouchOptions {
     /// Seed of the simulated fingers.
     #[arg(long, value_name = "SEED", default_value_t = 1, help_heading = heading::TOUCHES)]
     pub seed: u64,
-    /// Receive TUIO 1.1, TUIO 2.0 and OSC at this UDP port; the usual one is 3333.
+    /// Receive TUIO 1.1, TUIO 2.0 and OSC at this UDP port, 3333 if none is given.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "3333", help_heading = heading::TOUCHES)]
     pub tuio: Option<u16>,
     /// Accept WebSocket clients at this port.

@@ -99,7 +99,7 @@ impl Handle {
         workings.add(start, tap.force().to_vec(), footing)
     }
 
-    /// Puts a finger down under a number of its own; `contact` says where (m) and how it presses.
+    /// Puts a finger down, known as `id` from now on; `contact` says where (m) and how it presses.
     ///
     /// # Errors
     /// [`DevicesError::Physics`], as [`touch`](unripple_physics::VirtualSurface::touch).

@@ -33,7 +33,7 @@ const GIB: f64 = (1u64 << 30) as f64;
 /// The decaying oscillations of a loaded sheet, with real input and readout weights, as modal responses need them.
 #[derive(Clone, Debug)]
 pub struct Oscillations {
-    /// The poles, in order of ascending frequency; up to four oscillations belong to one complex mode.
+    /// The poles, in order of ascending frequency; a mode whose shape is complex is written as up to four oscillations of real weights.
     pub poles: Vec<Pole>,
     /// Input weights, transducers x oscillations.
     pub input: Mat<f64>,

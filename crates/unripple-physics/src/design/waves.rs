@@ -17,7 +17,7 @@ pub struct Wave {
     pub phase_celerity_m_s: f64,
     /// Group velocity dω/dk, in m/s.
     pub group_celerity_m_s: f64,
-    /// Modes per hertz by Weyl's law, with the term of the rim for its kinds of edges.
+    /// Modes per hertz by Weyl's law, with the perimeter term for the edge conditions.
     pub modes_per_hz: f64,
     /// Mean spacing of modes 1/(dM/df), in Hz; `None` where Weyl's law gives no modes.
     pub mode_spacing_hz: Option<f64>,

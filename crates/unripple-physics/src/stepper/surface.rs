@@ -39,7 +39,8 @@ pub struct FingerMotion {
     pub velocity: f64,
     /// Displacement of the finger since it was put down (the extension of its spring), in m.
     pub displacement: f64,
-    /// Mean power into the finger over the last block, dissipated and stored, in W: the exact work of its force per time.
+    /// Mean power into the finger over the last block, dissipated and stored together, in W: the exact work of the contact force over
+    /// the block's duration.
     pub power: f64,
 }
 

@@ -48,7 +48,8 @@ enum Origin {
 }
 
 impl Held {
-    /// The responses of a surface, which asks name `named`, from modes up to `max_hz` (Hz) or those of its band, under fingers (m).
+    /// The responses of a surface with fingers at some places (m), from modes up to `max_hz` (Hz) or those of its band; requests name the
+    /// surface as `named`.
     pub fn of_surface(
         surface: &Surface,
         named: SurfaceAsk,
@@ -289,7 +290,7 @@ impl Held {
         matches!(self.origin, Origin::Array { made_up: true })
     }
 
-    /// Puts the surface or library into an ask.
+    /// Puts the surface or library into a request.
     fn name(&self, surface: &mut SurfaceAsk) {
         match &self.origin {
             Origin::Surface { named, .. } => surface.clone_from(named),
@@ -298,7 +299,7 @@ impl Held {
         }
     }
 
-    /// Puts the fingers of the responses into an ask that names none.
+    /// Puts the fingers of the responses into a request that names none.
     fn touch(&self, asked: &mut Vec<Place>) {
         if let Origin::Surface { fingers, .. } = &self.origin
             && asked.is_empty()
@@ -319,7 +320,7 @@ impl Held {
         }
     }
 
-    /// The record of an ask that is about to be done; nothing where doing that ask would not use the same responses.
+    /// The record of a request that is about to be done; nothing where doing that request would not use the same responses.
     fn record<A: Request>(&self, ask: &A) -> Result<Option<Record>, TaskError> {
         let same = match &self.origin {
             Origin::Surface { max_hz, fingers, .. } => {
@@ -340,7 +341,7 @@ fn with_samples(record: &Record, drive: &Drive) -> Result<Record, TaskError> {
     Ok(record)
 }
 
-/// How wide figures are, where an ask wants them; refuses a folder for them.
+/// How wide figures are, where a request wants them; refuses a folder for them.
 fn columns(
     no_figures: bool,
     columns: Option<usize>,

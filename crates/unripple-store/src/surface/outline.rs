@@ -35,7 +35,7 @@ pub(super) struct Rim {
 }
 
 impl Rim {
-    /// The outline with these holes, clamped where the edges are at fault.
+    /// The outline with these holes; edges whose condition is invalid count as clamped.
     pub fn outline(&self, holes: &[Hole]) -> Option<Outline> {
         let edges = self.edges.clone().unwrap_or(Edges::All(Edge::Clamped));
         Some(Outline { shape: self.shape.clone()?, edges, holes: holes.to_vec() })

@@ -14,7 +14,7 @@ pub const SWEPT: &str = "swept Hz";
 /// Frequencies that differ by less than this share are the same.
 const SAME: f64 = 1e-9;
 
-/// Takes over the sweep settings of a library that is continued, where the ask does not give them: the settings that suit the surface may
+/// Takes over the sweep settings of a library that is continued, where the request does not give them: the settings that suit the surface may
 /// have changed since, and points measured with different sweeps do not go together.
 pub fn apply(ask: &Ask, surface: &Surface, settings: &mut MeasureOptions) -> Result<(), TaskError> {
     if !Library::is_at(&ask.output) {

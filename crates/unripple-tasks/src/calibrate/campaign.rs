@@ -25,7 +25,7 @@ pub(crate) fn by_taps(library: &Library) -> bool {
 
 /// All that is known before anything is measured.
 pub(crate) struct Campaign<'a> {
-    /// The question that the task was asked.
+    /// The request of the task.
     pub ask: &'a Ask,
     /// The surface as its file has it.
     pub surface: &'a Surface,

@@ -1,4 +1,4 @@
-//! Opens the device that an ask names, for a calibration.
+//! Opens the device that a request names, for a calibration.
 
 use super::rigs::{HandRig, People, VirtualRig};
 use crate::TaskError;

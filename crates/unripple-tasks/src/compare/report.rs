@@ -32,7 +32,7 @@ pub enum On {
     One(Box<Compared>),
     /// Results on several surfaces.
     Several {
-        /// Results on each surface that did not fail, in the order of the ask.
+        /// Results on each surface that did not fail, in the order of the request.
         surfaces: Vec<Compared>,
         /// Surfaces that failed, each with the reason.
         #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -41,7 +41,7 @@ pub enum On {
 }
 
 impl Report {
-    /// Results on each surface that did not fail, in the order of the ask.
+    /// Results on each surface that did not fail, in the order of the request.
     pub fn surfaces(&self) -> &[Compared] {
         match &self.on {
             On::One(on) => std::slice::from_ref(&**on),

@@ -79,7 +79,7 @@ fn check(ask: &Ask, surfaces: &[Surface]) -> Result<(), TaskError> {
     Ok(())
 }
 
-/// What each surface is called: as the ask says, by its own name, or as it was asked for where two have the same name.
+/// What each surface is called: as the request says, by its own name, or as it was asked for where two have the same name.
 fn labels(ask: &Ask, surfaces: &[Surface]) -> Result<Vec<String>, TaskError> {
     let (given, count) = (ask.labels.len(), surfaces.len());
     if given == count {

@@ -161,7 +161,7 @@ impl Bench {
     }
 }
 
-/// Tension of a virtual surface over its nominal tension against time (s), as the ask gives it.
+/// Tension of a virtual surface over its nominal tension against time (s), as the request gives it.
 fn course(ask: &Ask) -> Vec<(f64, f64)> {
     let at = |seconds: f64| 1.0 + ask.changed + ask.changing_per_min * seconds / 60.0;
     match (ask.changed, ask.changing_per_min) {

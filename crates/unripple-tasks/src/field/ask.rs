@@ -12,7 +12,7 @@ use unripple_calibrate::Interpolation;
 pub enum DriveAsk {
     /// A WAV file with one channel per actuator, in the actuators' units.
     File(PathBuf),
-    /// Samples given in the ask itself.
+    /// Samples given in the request itself.
     Samples {
         /// One list per actuator, in the actuators' units.
         channels: Vec<Vec<f64>>,

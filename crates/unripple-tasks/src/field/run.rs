@@ -18,7 +18,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     kept(ask, |progress| open(ask, progress), progress)
 }
 
-/// Does what [`run()`] does, on a surface or responses that are given instead of those that the ask names; the record of the folder holds the ask.
+/// Does what [`run()`] does, on a surface or responses that are given instead of those that the request names; the record in the folder
+/// holds the request.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of reading them.
@@ -56,7 +57,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
 }
 
 /// Measures what a drive does to a surface as [`make()`] does, for a surface or responses and a drive that are given instead of those that
-/// the ask names.
+/// the request names.
 ///
 /// # Errors
 /// Those of [`make()`], except the errors of reading surface and drive.
@@ -72,13 +73,13 @@ pub fn make_on(
     Ok(measured(ask, source, drive, false, progress)?.0)
 }
 
-/// The surface or responses and the drive that an ask names.
+/// The surface or responses and the drive that a request names.
 fn open(ask: &Ask, progress: &mut dyn Progress) -> Result<(Source, Drive), TaskError> {
     numbers(ask)?;
     driven(ask, source::open(&ask.surface, progress)?)
 }
 
-/// A surface or responses, with the drive that an ask names.
+/// A surface or responses, with the drive that a request names.
 fn driven(ask: &Ask, source: Source) -> Result<(Source, Drive), TaskError> {
     allow(ask, &source)?;
     let drive = drive(&ask.drive, &source.surface)?;
@@ -148,7 +149,7 @@ fn measured(
     Ok((Made { report, drive, judged, aims, surface, responses, scaled: !unscaled, when }, movie))
 }
 
-/// Refuses what makes no sense by the ask, its surface and the drive alone, so that nobody waits for modes to be told so.
+/// Refuses what makes no sense by the request, its surface and the drive alone, so that nobody waits for modes to be told so.
 ///
 /// # Errors
 /// Those of [`run()`] that need neither modes nor a field.

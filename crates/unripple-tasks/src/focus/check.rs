@@ -12,7 +12,7 @@ use unripple::core::Surface;
 use unripple::focus::{FocusError, Options, Target};
 use unripple::physics::Medium;
 
-/// Refuses what makes no sense by the ask and its surface alone, so that nobody waits for modes to be told so.
+/// Refuses what makes no sense by the request and its surface alone, so that nobody waits for modes to be told so.
 ///
 /// ```
 /// use unripple_tasks::target::PointAsk;

@@ -32,7 +32,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     kept(ask, |progress| source::open(&ask.surface, progress), progress)
 }
 
-/// Does what [`run()`] does, on a surface or responses that are given instead of those that the ask names; the record of the folder holds the ask.
+/// Does what [`run()`] does, on a surface or responses that are given instead of those that the request names; the record in the folder
+/// holds the request.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of reading them.
@@ -65,7 +66,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     make_on(ask, source::open(&ask.surface, progress)?, progress)
 }
 
-/// Computes and evaluates a drive as [`make()`] does, for a surface or responses that are given instead of those that the ask names.
+/// Computes and evaluates a drive as [`make()`] does, for a surface or responses that are given instead of those that the request names.
 ///
 /// # Errors
 /// Those of [`make()`], except the errors of reading the surface or responses.

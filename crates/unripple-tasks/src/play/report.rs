@@ -55,7 +55,7 @@ pub struct Report {
     priority: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     server: Option<ServerSays>,
-    /// Notes on what is wrong with the library that was played on.
+    /// Notes on doubts about the library of responses that was used.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<Note>,
     /// What each finger felt at the last look.

@@ -30,7 +30,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     kept(ask, |progress| source::open(&ask.surface, progress), progress)
 }
 
-/// Does what [`run()`] does, on a surface or responses that are given instead of those that the ask names; the record of the folder holds the ask.
+/// Does what [`run()`] does, on a surface or responses that are given instead of those that the request names; the record in the folder
+/// holds the request.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of reading them.
@@ -59,7 +60,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     make_on(ask, source::open(&ask.surface, progress)?, progress)
 }
 
-/// Computes and evaluates a drive as [`make()`] does, for a surface or responses that are given instead of those that the ask names.
+/// Computes and evaluates a drive as [`make()`] does, for a surface or responses that are given instead of those that the request names.
 ///
 /// # Errors
 /// Those of [`make()`], except the errors of reading the surface or responses.
@@ -71,7 +72,7 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     judge(common, source, progress, plan, |stroke, surface, models| stroked(ask, surface, &stroke, models))
 }
 
-/// Refuses what makes no sense by the ask and its surface alone, so that nobody waits for modes to be told so.
+/// Refuses what makes no sense by the request and its surface alone, so that nobody waits for modes to be told so.
 ///
 /// # Errors
 /// Those of [`run()`] that need neither modes nor a drive.

@@ -1,4 +1,4 @@
-//! How strong a drive is to be, as an ask gives it.
+//! How strong a drive is to be, as a request gives it.
 
 use crate::TaskError;
 use crate::numbers::above_zero;

@@ -11,7 +11,7 @@ pub use shape::{LineAsk, ShapeAsk};
 use crate::TaskError;
 use unripple::focus::{Pattern, Target};
 
-/// Targets of an ask: points first, then shapes, sampled at points close enough for the shortest wavelength
+/// Targets of a request: points first, then shapes, sampled at points close enough for the shortest wavelength
 /// `lambda_min` (m).
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! A point that is to be in focus, as an ask gives it.
+//! A point that is to be in focus, as a request gives it.
 
 use crate::numbers::above_zero;
 use crate::{Place, TaskError, point};

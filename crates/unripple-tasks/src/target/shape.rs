@@ -1,4 +1,4 @@
-//! A shape or a path, as an ask gives it.
+//! A shape or a path, as a request gives it.
 
 use crate::{Place, TaskError, point};
 use serde::{Deserialize, Serialize};

@@ -33,7 +33,7 @@ pub enum SoundAsk {
         /// Path of the WAV file.
         file: PathBuf,
     },
-    /// Samples given in the ask itself.
+    /// Samples given in the request itself.
     Samples {
         /// Sample values; only their ratios matter, since the level sets the peak.
         values: Vec<f64>,

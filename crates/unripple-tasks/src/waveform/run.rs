@@ -25,7 +25,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     kept(ask, |progress| source::open(&ask.surface, progress), progress)
 }
 
-/// Does what [`run()`] does, on a surface that is given instead of the one that the ask names; the record of the folder holds the ask.
+/// Does what [`run()`] does, on a surface that is given instead of the one that the request names; the record in the folder holds the request.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of reading the surface.
@@ -54,7 +54,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     make_on(ask, source::open(&ask.surface, progress)?, progress)
 }
 
-/// Computes and evaluates a drive as [`make()`] does, for a surface that is given instead of the one that the ask names. Waveforms are
+/// Computes and evaluates a drive as [`make()`] does, for a surface that is given instead of the one that the request names. Waveforms are
 /// planned on modes above the band: not on responses of the band that are given, but on what has been solved.
 ///
 /// # Errors
@@ -67,7 +67,7 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     judge(common, source, progress, plan, |waves, surface, models| followed(ask, &waves, surface, models))
 }
 
-/// Refuses what makes no sense by the ask and its surface alone, so that nobody waits for modes to be told so.
+/// Refuses what makes no sense by the request and its surface alone, so that nobody waits for modes to be told so.
 ///
 /// # Errors
 /// Those of [`run()`] that need neither modes nor a drive.

@@ -6,7 +6,7 @@ use std::fmt::Debug;
 use unripple_tasks::record::Request;
 use unripple_tasks::*;
 
-/// Holds that the ask of a command by its name is that of its type.
+/// Holds that the request of a command by its name is that of its type.
 fn whole<A: Request + Default + PartialEq + Debug>() {
     assert!(commands::COMMANDS.contains(&A::COMMAND));
     let ask = commands::default_ask(A::COMMAND).unwrap();

@@ -125,7 +125,7 @@ fn a_folder_that_is_filled_from_what_is_given_is_that_of_the_surface() {
         let [one, other] = [&named, &filled].map(|folder| std::fs::read(folder.join(name)).unwrap());
         assert!(one == other, "{name}");
     }
-    // The record names the surface that the ask does.
+    // The record names the surface that the request does.
     let record = |folder: &Path| {
         let text = std::fs::read_to_string(folder.join("report.json")).unwrap();
         serde_json::from_str::<Value>(&text).unwrap()["run"]["ask"]["surface"].take()

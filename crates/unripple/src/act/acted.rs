@@ -18,8 +18,8 @@ pub struct Acted {
 }
 
 impl<'a> Act<'a> {
-    /// Grids on which the fields of the act's responses are evaluated, for [`Act::send`] and [`Act::judge`]; acts on
-    /// the same responses can share them.
+    /// Grids on which fields are evaluated, for [`Act::send`] and [`Act::judge`]; acts with the same responses can
+    /// share them.
     pub fn readouts(&self) -> Readouts<'a> {
         Readouts::of(self.responses)
     }

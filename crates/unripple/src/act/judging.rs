@@ -80,7 +80,7 @@ impl Judging {
         (!texts.is_empty()).then(|| texts.join("; "))
     }
 
-    /// Adds to a report what its metrics were computed on: the modes of `surface` up to this frequency, with the note.
+    /// Adds to a report the frequency up to which modes of `surface` were used for its metrics, and the notes on that.
     pub fn tell(&self, surface: &Surface, report: &mut Report) {
         report.judged_on = Some(format!("{}, modes up to {} Hz", surface.name, self.hz));
         report.notes.extend(self.note.iter().chain(&self.inexact).cloned());

@@ -31,7 +31,7 @@ pub struct Sent {
     pub traced: f64,
     /// Level of the drive relative to its limits, and what decided it.
     pub strength: Strength,
-    /// Notes on how the level affects the method.
+    /// Notes on how the requested level affects the method.
     pub notes: Vec<Note>,
 }
 

@@ -3,14 +3,14 @@
 use crate::physics::design::Design;
 use serde::Serialize;
 
-/// One figure of a surface, as `unripple design` prints it.
+/// One computed quantity of a surface, as `unripple design` prints it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Figure {
-    /// Name of the figure for programs.
+    /// Key of the quantity in JSON.
     pub key: &'static str,
-    /// Name of the figure for people.
+    /// Name of the quantity in reports.
     pub label: &'static str,
-    /// Value of the figure, in `unit`.
+    /// Value of the quantity, in `unit`.
     pub value: f64,
     /// The unit; empty for a pure number.
     pub unit: &'static str,

@@ -45,7 +45,7 @@ pub fn found(folder: &Path) -> Result<Option<Value>, TaskError> {
     }
 }
 
-/// Takes over the settings of a plan, where the ask does not give them, so that recordings are read as they were made.
+/// Takes over the settings of a plan, where the request does not give them, so that recordings are read as they were made.
 pub fn apply(plan: &Value, ask: &Ask, settings: &mut MeasureOptions) {
     let seconds = |key: &str| plan[key].as_f64().filter(|seconds| *seconds > 0.0 && *seconds < 60.0);
     let usual = MeasureOptions::default();

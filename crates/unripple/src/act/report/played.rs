@@ -20,7 +20,7 @@ pub struct Followed {
 /// A focus that moves along a path (stroke): what was prescribed, and how even its level is.
 #[derive(Clone, Debug, Serialize)]
 pub struct Stroked {
-    /// Number of pulses in the stroke.
+    /// Number of pulses along the path.
     pub pulses: usize,
     /// Duration of the stroke, in seconds.
     pub duration_s: f64,
