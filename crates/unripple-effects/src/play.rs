@@ -73,7 +73,7 @@ pub(crate) struct Out<'o> {
 }
 
 impl Out<'_> {
-    /// Adds an act of one part of the voice at a time (s), if the budget allows.
+    /// Adds an act of part `part` of the voice at time `at` (s), if the number of acts that may still be made allows.
     pub fn push(&mut self, part: u8, at: f64, act: Act) {
         if !matches!(act, Act::Stop { .. }) {
             if self.budget.left == 0 {

@@ -85,7 +85,7 @@ pub(crate) struct Text<'a> {
     pub size: f64,
     /// Which end of the line is at the place.
     pub anchor: Anchor,
-    /// Which height of the line is at the place.
+    /// Which height of the text is at the place: its baseline, its middle or another.
     pub rise: Rise,
     /// Whether the text reads upwards instead of rightwards.
     pub upwards: bool,

@@ -14,7 +14,7 @@ pub const KEY: &str = "own_points";
 /// written in files to a nanometre, so that rounding stays below it.
 const SAME: f64 = 1e-6;
 
-/// Value of the log entry [`KEY`] for a library of this surface whose own points hold sensor signals, with their units.
+/// Value of the log entry [`KEY`] of a library in which the points at the actuators of this surface hold sensor signals: their units.
 pub fn told(surface: &Surface) -> Result<Value, TaskError> {
     let units: Vec<&str> = sensing(surface)?.iter().map(|sensor| sensor.unit).collect();
     Ok(json!({ "hold": "what sensors heard", "units": units }))

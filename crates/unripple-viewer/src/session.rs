@@ -18,7 +18,7 @@ use unripple_tasks::{Lane, TaskError};
 #[cfg(test)]
 mod tests;
 
-/// Work that takes longer than a picture may wait, with the flag by which it is given up. It is done on other threads, one of each kind
+/// Work too slow to be done between two pictures, with the flag that cancels it. It is done on other threads, one of each kind
 /// at a time.
 pub enum Errand {
     /// Build the instrument that plays a surface: [`build`](Self::build) does it.

@@ -9,7 +9,7 @@ pub struct VerifyOptions {
     pub model: bool,
     /// Known delay of the probe relative to the sensors, in s, if it was removed from the responses.
     pub probe_delay: Option<f64>,
-    /// Delay that was removed from the responses of each point before, in s; empty for none.
+    /// Delay that was already removed from the responses of each point, in s; empty for none.
     pub removed: Vec<f64>,
     /// Indices of dead actuators, which are left out.
     pub dead: Vec<usize>,

@@ -20,7 +20,7 @@ pub struct FitOptions {
     /// Largest number of unknown point masses to fit.
     #[arg(long, value_name = "N", default_value_t = 3, help_heading = heading::MODEL)]
     pub strays: usize,
-    /// Largest number of half waves, both directions together, in the variation of tension over the sheet; 0 for uniform tension.
+    /// Fit variations of tension over the sheet of up to so many half waves, along x and y together; 0 for uniform tension.
     #[arg(long, value_name = "N", default_value_t = 3, help_heading = heading::MODEL)]
     pub profile: usize,
     /// Write the library even if the model is doubtful; the library is then marked, and commands that use it warn.

@@ -44,8 +44,8 @@ pub struct ViewOptions {
     /// Seconds to run; by default until interrupted.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub seconds: Option<f64>,
-    /// End when standard input ends: for a program that starts this one and holds the other end of a pipe, so that this one ends
-    /// when that is gone, however it ended.
+    /// End when standard input ends: for a program that starts this one through a pipe, so that this one ends with it, even if it
+    /// crashes.
     #[arg(long)]
     pub until_input_ends: bool,
 }

@@ -25,8 +25,8 @@ impl Replay {
         Self::of(rings.clone(), rings, rate)
     }
 
-    /// A single pulse with a window (s), for any window with the same work: the sums over samples are computed in
-    /// closed form. For modes that oscillate (σ < ω) or have ω = 0.
+    /// A single pulse with a window (s). The computing time does not depend on the window, since the sums over samples are
+    /// computed in closed form. For modes that oscillate (σ < ω) or have ω = 0.
     ///
     /// g_m = Re a_m z_m^i, so that I_mn = ½ Re Σ_i (a_m a_n (z_m z_n)^i + a_m a_n* (z_m z_n*)^i), two geometric series.
     pub fn of_any_length(poles: &[Pole], rate: f64, window: f64) -> Self {

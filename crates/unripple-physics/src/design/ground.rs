@@ -33,10 +33,10 @@ pub(super) struct Ground<'a> {
     pub window: Recommended,
     /// Contrast against window, from which that window was chosen.
     pub windows: Windows,
-    /// Contrast with that window over that by the statistics of the modes.
+    /// Contrast with the chosen window over that by the statistics of the modes.
     statistics_scale: f64,
-    /// Contrast with that window from the modes coupled to all that is attached to the sheet; `None` where the window is chosen by
-    /// statistics.
+    /// Contrast with the chosen window, computed from the modes as coupled to all that is attached to the sheet; `None` where the
+    /// window is chosen by statistics.
     pub loaded_contrast: Option<f64>,
 }
 

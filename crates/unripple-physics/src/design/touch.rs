@@ -10,7 +10,7 @@ use unripple_core::{Finger, Surface};
 /// third would tell little more.
 const MULTIPLES: [f64; 2] = [1.0, 2.0];
 
-/// Power of a wave on a strip of sheet as wide as the contact that moves a finger by 10 µm, and the impedances involved
+/// Power of the wave that moves a finger by 10 µm, on a strip of sheet as wide as the contact, and the impedances involved
 /// (Hudin et al. 2012, section 3.5 and table 1).
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Touch {

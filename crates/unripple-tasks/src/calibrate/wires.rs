@@ -16,7 +16,7 @@ pub struct Found {
     pub dead: Vec<usize>,
     /// Notes on dead actuators that nobody had named.
     pub notes: Vec<String>,
-    /// Other faults, which were accepted.
+    /// Other faults, with which the user chose to go on.
     pub faults: Vec<String>,
 }
 

@@ -33,7 +33,7 @@ impl Columns {
         }
     }
 
-    /// Figures, with their names, of these widths; sizes of text stay as they are.
+    /// Resizes named figures to this width; sizes of text stay as they are.
     pub fn fit(self, figures: Vec<(&str, Figure)>) -> Vec<(&str, Figure)> {
         let wide = |figure: Figure| match self {
             Self::Own => figure,
