@@ -19,18 +19,27 @@ const REACH: f64 = 4.0;
 /// delay.
 ///
 /// ```
-/// use unripple_calibrate::{Measured, signals::shift, verify};
+/// use unripple_calibrate::signals::{Band, shift};
+/// use unripple_calibrate::{Measured, verify};
 /// use unripple_core::{Point, Responses};
 /// use unripple_physics::{ResponseOptions, design::papers_surface, responses, sample};
 ///
 /// let mut surface = papers_surface();
 /// surface.emission.band[1] = 600.0;
-/// let above = ResponseOptions { max_hz: Some(1200.0), ..ResponseOptions::default() };
+/// let above = ResponseOptions { max_hz: Some(2400.0), ..ResponseOptions::default() };
 /// let Responses::Modal(modal) = responses(&surface, &above)? else { unreachable!() };
 /// let own: Vec<Point> = surface.actuators.iter().map(|a| a.at).collect();
-/// let heard = sample(&modal, &own, 4800);
-/// let signal = |n: usize| heard.response(n / 8, n % 8).iter().map(|v| f64::from(*v)).collect::<Vec<_>>();
-/// let measured = Measured::pairs(48e3, (0..64).map(|n| shift(&signal(n), 0.3)).collect(), 1e-3);
+/// let heard = sample(&modal, &own, 9600);
+/// // As they are measured: limited to a band, 0.3 samples late, from time 0.
+/// let band = Band::within(60.0, 720.0);
+/// let mut pairs = Vec::new();
+/// for n in 0..64 {
+///     let mut signal = vec![0.0; 240];
+///     signal.extend(heard.response(n / 8, n % 8).iter().map(|v| f64::from(*v)));
+///     band.limit(&mut signal, 48e3)?;
+///     pairs.push(shift(&signal, 0.3).split_off(240));
+/// }
+/// let measured = Measured::pairs(48e3, pairs, 1e-3).limited_to(band);
 /// let found = verify::late(&surface, &measured, &[]).expect("a model fits");
 /// assert!((found.value * 48e3 - 0.3).abs() < 0.02);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
