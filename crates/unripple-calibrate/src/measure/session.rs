@@ -7,7 +7,7 @@ use super::{Channel, Hearing, MeasureOptions, Rig, Wires, latency, record};
 use crate::CalibrateError;
 use crate::fit::Measured;
 use crate::signals::{Band, Deconvolver, Delay, Inversion, Schedule, Sweep, shift};
-use crate::verify::late;
+use crate::verify;
 use unripple_core::{Layout, ModalResponses, PROBE, Point, Surface};
 
 /// Longest latency that is searched, in s. Longer than any sound system's buffers; each second of it is a second more of every
@@ -259,7 +259,8 @@ impl Session {
 
     /// Latency of the device and its uncertainty, both in samples: from the reference channel if there is one (uncertainty 0),
     /// otherwise from responses between actuators, by [`latency`]; where that is uncertain for damping that couples modes, also by a
-    /// model that is fitted to these responses ([`late`]), unless [`MeasureOptions::model`] is false. `None` if there is neither reference nor sensor.
+    /// model that is fitted to these responses ([`verify::late`]), unless [`MeasureOptions::model`] is false. `None` if there is neither
+    /// reference nor sensor.
     ///
     /// # Errors
     /// Those of the rig, of [`record`] and of [`latency`]; of [`Session::measure`] for clocks and samples lost.
@@ -316,7 +317,7 @@ impl Session {
         };
         let pairs = (0..count * count).map(pair).collect();
         let measured = Measured::reciprocal(rate, pairs, [self.sweep.from, self.sweep.to]).ok()?;
-        let left = late(&self.surface, &measured.limited_to(self.band), &self.options.without)?;
+        let left = verify::late(&self.surface, &measured.limited_to(self.band), &self.options.without)?;
         Some([left.value * rate, left.error * rate])
     }
 

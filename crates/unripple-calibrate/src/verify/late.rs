@@ -1,6 +1,6 @@
 //! The delay of responses between actuators, by a model that is fitted to them.
 
-use super::quick::{SPOILT, among, band, chosen};
+use super::quick::{Part, SPOILT};
 use super::verdict::VerifyOptions;
 use crate::fit::{Estimate, FitOptions, Measured, fit};
 use unripple_core::Surface;
@@ -45,14 +45,9 @@ const REACH: f64 = 4.0;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn late(surface: &Surface, measured: &Measured, dead: &[usize]) -> Option<Estimate> {
-    let options = VerifyOptions { dead: dead.to_vec(), ..VerifyOptions::default() };
-    let actuators = chosen(surface, measured, &options).ok()?;
-    let mut part = surface.clone();
-    part.actuators = actuators.iter().map(|a| surface.actuators[*a].clone()).collect();
-    let heard = among(measured, &actuators, surface.actuators.len());
-    let band = band(surface, measured, MODES).ok()?;
-    part.emission.band = band;
-    let fitted =
-        fit(&part, &heard, &FitOptions { band: Some(band), reach: REACH, ..FitOptions::default() }).ok()?;
+    let options = VerifyOptions { dead: dead.to_vec(), modes: MODES, ..VerifyOptions::default() };
+    let Part { surface, heard, band, .. } = Part::of(surface, measured, &options).ok()?;
+    let plan = FitOptions { band: Some(band), reach: REACH, ..FitOptions::default() };
+    let fitted = fit(&surface, &heard, &plan).ok()?;
     (fitted.unexplained() < SPOILT).then_some(fitted.late)
 }

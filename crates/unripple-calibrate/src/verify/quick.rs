@@ -64,12 +64,7 @@ impl Quick {
         probed: &SampledResponses,
         options: &VerifyOptions,
     ) -> Result<Self, String> {
-        let actuators = chosen(surface, measured, options)?;
-        let mut part = surface.clone();
-        part.actuators = actuators.iter().map(|a| surface.actuators[*a].clone()).collect();
-        let heard = among(measured, &actuators, surface.actuators.len());
-        let band = band(surface, measured, options.modes)?;
-        part.emission.band = band;
+        let Part { actuators, surface: part, heard, band } = Part::of(surface, measured, options)?;
         let plan = FitOptions {
             band: Some(band),
             profile: PROFILE,
@@ -146,9 +141,7 @@ impl Quick {
         probed: &SampledResponses,
         options: &VerifyOptions,
     ) -> Result<Self, String> {
-        let actuators = chosen(surface, measured, options)?;
-        let heard = among(measured, &actuators, surface.actuators.len());
-        let band = band(surface, measured, options.modes)?;
+        let Part { actuators, heard, band, .. } = Part::of(surface, measured, options)?;
         Self::of(fitted.among(&actuators), &heard, probed, actuators, band)
     }
 
@@ -184,12 +177,33 @@ impl Quick {
     }
 }
 
+/// What a model is fitted to where that is quick: some of the actuators, in the band of the lowest modes.
+pub(super) struct Part {
+    /// Indices of these actuators.
+    pub actuators: Vec<usize>,
+    /// The surface with these actuators alone, and this band.
+    pub surface: Surface,
+    /// The responses between them.
+    pub heard: Measured,
+    /// The band, in Hz.
+    pub band: [f64; 2],
+}
+
+impl Part {
+    /// About [`VerifyOptions::modes`] modes, and actuators that are not dead; the error says, in words, why there is nothing to fit.
+    pub fn of(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Result<Self, String> {
+        let actuators = chosen(surface, measured, options)?;
+        let heard = among(measured, &actuators, surface.actuators.len());
+        let band = band(surface, measured, options.modes)?;
+        let mut part = surface.clone();
+        part.actuators = actuators.iter().map(|a| surface.actuators[*a].clone()).collect();
+        part.emission.band = band;
+        Ok(Self { actuators, surface: part, heard, band })
+    }
+}
+
 /// Actuators that work as drives and as sensors, [`ENOUGH`] at most, far from each other.
-pub(super) fn chosen(
-    surface: &Surface,
-    measured: &Measured,
-    options: &VerifyOptions,
-) -> Result<Vec<usize>, String> {
+fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Result<Vec<usize>, String> {
     let all = surface.actuators.len();
     let pairs = measured.pairs.iter().flat_map(|p| &p.responses);
     let powers: Vec<f64> = pairs.map(|h| h.iter().map(|x| x * x).sum()).collect();
@@ -219,7 +233,7 @@ pub(super) fn chosen(
 }
 
 /// The measurement with some of the actuators only.
-pub(super) fn among(measured: &Measured, actuators: &[usize], all: usize) -> Measured {
+fn among(measured: &Measured, actuators: &[usize], all: usize) -> Measured {
     let mut part = measured.clone();
     let count = actuators.len();
     if let (Some(part), Some(pairs)) = (&mut part.pairs, &measured.pairs) {
@@ -230,7 +244,7 @@ pub(super) fn among(measured: &Measured, actuators: &[usize], all: usize) -> Mea
 }
 
 /// The lowest frequencies (Hz) that the measurement does not attenuate, up to about `modes` modes.
-pub(super) fn band(surface: &Surface, measured: &Measured, modes: usize) -> Result<[f64; 2], String> {
+fn band(surface: &Surface, measured: &Measured, modes: usize) -> Result<[f64; 2], String> {
     let medium = Medium::of(&surface.sheet);
     let (area, rim) = (surface.outline.area(), surface.outline.perimeter());
     // Weyl's law for a fixed rim.
