@@ -9,5 +9,6 @@ mod modes_oracle;
 mod outline_oracle;
 #[path = "../round_common/mod.rs"]
 mod round_common;
+mod springs_oracle;
 #[path = "../truth_common/mod.rs"]
 mod truth_common;

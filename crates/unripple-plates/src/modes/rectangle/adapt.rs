@@ -5,6 +5,7 @@ use super::plate::Plate;
 use super::problem::Problem;
 use super::product::{Product, Symmetry};
 use super::ritz::{BlockModes, solve_block};
+use super::springs::Springs;
 use crate::PhysicsError;
 use crate::modes::best::Best;
 use crate::modes::bounds::Bounds;
@@ -14,28 +15,29 @@ use std::f64::consts::PI;
 use unripple_core::{Edge, Observed};
 use unripple_linalg::{Mat, Par};
 
-/// Largest number of rounds, each with up to 1.6 times as many polynomials as the one before. More would only delay the
-/// failure if the accuracy is out of reach.
+/// Largest number of rounds, each with up to 1.6 times as many polynomials as the round before. More would
+/// only delay the failure if the accuracy cannot be reached.
 const ROUNDS: usize = 12;
 
 /// The share of the least error so far that a round must fall below to count as progress. At 1, chance variation of
 /// rounding errors would count as progress.
 const STALLED: f64 = 0.7;
 
-/// Rounds without progress after which the accuracy counts as out of reach. With twice this value, this takes two rounds more.
+/// Number of rounds without progress after which the accuracy counts as out of reach. With twice this
+/// value, this takes two rounds more.
 const PATIENCE: usize = 2;
 
-/// A solution of the accuracy asked for.
+/// The modes of a rectangle with the requested accuracy.
 pub(crate) struct Solution {
-    /// The functions along x and y.
+    /// The basis functions along x and y.
     pub(crate) lines: [Line; 2],
-    /// The modes, by symmetry class; rigid ones in classes of their own at the front.
+    /// The modes, by symmetry class; rigid-body modes come first, each in a class of its own.
     pub(crate) blocks: Vec<BlockModes>,
     /// Largest relative error of a frequency, estimated.
     pub(crate) error: f64,
 }
 
-/// Solves with more and more polynomials until the estimated error is the one asked for.
+/// Solves with more and more polynomials until the estimated error is at most the requested one.
 pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
     let mut counts = first_counts(problem, problem.bounds.k_top);
     let mut before: Option<(f64, f64)> = None;
@@ -52,7 +54,9 @@ pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
         let plate = plate(problem, counts);
         let solved = solve_blocks(&plate, counts, problem.bounds.top_square(), &observed);
         let Some(blocks) = solved else { break };
-        let error = blocks.iter().map(|b| b.error).fold(0.0, f64::max);
+        let lowest = blocks.iter().flat_map(|b| &b.squares).copied().filter(|square| *square > 0.0);
+        let rounded = plate.rounded(lowest.fold(f64::INFINITY, f64::min));
+        let error = blocks.iter().map(|b| b.error).fold(0.0, f64::max) + rounded;
         if error <= problem.bounds.accuracy {
             return Ok(Solution { blocks, error, lines: plate.lines });
         }
@@ -99,18 +103,19 @@ fn first_counts(problem: &Problem, k: f64) -> [usize; 2] {
             return (soft.wavenumber(square) * side / PI) as usize + 1;
         }
         let half = 0.5 * k * side;
-        let free = f64::from(u8::from(problem.edges[axis].contains(&Edge::Free)));
+        let free = f64::from(u8::from(problem.edges[axis].iter().any(|edge| edge.moves())));
         let margin = 2.5 * free - half.cbrt() - problem.bounds.accuracy.ln() / 1.5;
         ((half + margin).ceil().max(4.0) as usize).next_multiple_of(2)
     })
 }
 
-/// Number of further functions beside `count` from which the error is estimated.
+/// Number of basis functions, beyond the first `count`, from which the error is estimated.
 fn further(count: usize) -> usize {
     (count / 4).max(4).next_multiple_of(2)
 }
 
-/// The plate's energy in `counts` functions along each side, and in the further ones from which the error is estimated.
+/// The plate's energy in terms of `counts` functions along each side, and of the additional functions from
+/// which the error is estimated.
 fn plate(problem: &Problem, counts: [usize; 2]) -> Plate {
     let line = |axis: usize| {
         let [low, high] = problem.edges[axis];
@@ -121,8 +126,13 @@ fn plate(problem: &Problem, counts: [usize; 2]) -> Plate {
     let scale = |power: i32, stiffness: f64| {
         problem.sides.map(|side| stiffness / medium.areal_density * (2.0 / side).powi(power))
     };
+    let lines = [line(0), line(1)];
+    let springs = [0, 1].map(|axis| {
+        Springs::of(&lines[axis], problem.edges[axis], problem.sides[axis], medium.areal_density)
+    });
     Plate {
-        lines: [line(0), line(1)],
+        lines,
+        springs,
         tension: scale(2, medium.tension),
         bending: scale(4, medium.bending_stiffness),
         poisson: problem.bounds.poisson,
@@ -130,7 +140,8 @@ fn plate(problem: &Problem, counts: [usize; 2]) -> Plate {
     }
 }
 
-/// The modes of every symmetry class, shared among threads; `None` if one does not converge.
+/// The modes of every symmetry class; classes are shared among threads. `None` if the eigenvalue iteration
+/// of a class does not converge.
 fn solve_blocks(plate: &Plate, counts: [usize; 2], top: f64, observed: &Observed) -> Option<Vec<BlockModes>> {
     let classes = [0, 1].map(|axis| plate.lines[axis].classes(counts[axis]));
     let symmetries = Symmetry::all(&classes[0], &classes[1], plate.square);
@@ -148,7 +159,7 @@ fn solve_blocks(plate: &Plate, counts: [usize; 2], top: f64, observed: &Observed
     Some(blocks)
 }
 
-/// Modes that store no energy, exact.
+/// Rigid-body modes, which store no energy; these are exact.
 fn rigid(plate: &Plate, counts: [usize; 2]) -> Vec<BlockModes> {
     let lowest = |axis: usize| 0..counts[axis].min(2);
     lowest(0)
@@ -184,7 +195,8 @@ fn guard(problem: &Problem, counts: [usize; 2]) -> Result<(), PhysicsError> {
     })
 }
 
-/// Number of unknowns of the largest symmetry class, and bytes for all: six matrices for each class in work, and all shapes.
+/// Number of unknowns of the largest symmetry class, and memory in bytes for the solution: six matrices for
+/// each class being solved, and all mode shapes.
 fn cost(problem: &Problem, counts: [usize; 2]) -> (usize, f64) {
     let class = |axis: usize| {
         let [low, high] = problem.edges[axis];

@@ -14,8 +14,10 @@ pub(crate) struct Line {
     pub(crate) slope: Mat<f64>,
     /// Curvature integrals ∫f'' g'', functions x functions.
     pub(crate) curvature: Mat<f64>,
-    /// Integrals ∫f'' g, functions x functions, the first index differentiated.
+    /// Integrals ∫f'' g, functions x functions; the function of the first index is differentiated.
     pub(crate) mixed: Mat<f64>,
+    /// Whether both ends have the same edge condition, so that even and odd functions do not couple.
+    symmetric: bool,
 }
 
 /// The basis functions along one direction.
@@ -39,6 +41,7 @@ impl Line {
             curvature: Mat::zeros(count, count),
             mixed: Mat::zeros(count, count),
             functions: Functions::Polynomials(family.clone()),
+            symmetric: low == high,
         };
         let symmetric = family.symmetric();
         for (xi, weight) in gauss(count + 5) {
@@ -66,6 +69,15 @@ impl Line {
             slope: diagonal(&|k| k * k),
             curvature: diagonal(&|k| k.powi(4)),
             mixed: diagonal(&|k| -k * k),
+            symmetric: true,
+        }
+    }
+
+    /// Value, first and second derivative of each polynomial at ξ; of none where the functions are sines.
+    pub(crate) fn derivatives_at(&self, xi: f64) -> Vec<[f64; 3]> {
+        match &self.functions {
+            Functions::Sines => Vec::new(),
+            Functions::Polynomials(family) => family.derivatives_at(xi),
         }
     }
 
@@ -90,17 +102,17 @@ impl Line {
         }
     }
 
-    /// Whether the functions are exact, so that more of them add nothing.
+    /// Whether the functions are the exact mode shapes, so that more of them add nothing.
     pub(crate) fn exact(&self) -> bool {
         matches!(self.functions, Functions::Sines)
     }
 
-    /// Classes of functions, among the first `count`, that do not couple with each other: single sines, even and odd
-    /// polynomials, or all polynomials.
+    /// Classes of functions, among the first `count`, such that functions of different classes do not
+    /// couple: single sines, even and odd polynomials, or all polynomials.
     pub(crate) fn classes(&self, count: usize) -> Vec<Class> {
         match &self.functions {
             Functions::Sines => (0..count).map(|n| Class { first: n, step: 1, end: n + 1 }).collect(),
-            Functions::Polynomials(family) if family.symmetric() => {
+            Functions::Polynomials(_) if self.symmetric => {
                 (0..2).map(|n| Class { first: n, step: 2, end: count }).collect()
             }
             Functions::Polynomials(_) => vec![Class { first: 0, step: 1, end: count }],
@@ -108,7 +120,7 @@ impl Line {
     }
 }
 
-/// A class of functions: those of the indices `first`, `first + step`, … below `end`.
+/// A class of functions: those with the indices `first`, `first + step`, … below `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Class {
     /// The first index.
@@ -125,7 +137,7 @@ impl Class {
         self.end.saturating_sub(self.first).div_ceil(self.step)
     }
 
-    /// The index at place `i` of the class.
+    /// The index of the function in position `i` of the class.
     pub(crate) fn index(self, i: usize) -> usize {
         self.first + i * self.step
     }
@@ -136,8 +148,8 @@ impl Class {
     }
 }
 
-/// sin(nθ), n = 1, 2, …, into `values`, by complex rotation restarted often enough to stay at machine
-/// precision; θ in radians.
+/// Writes sin(nθ), n = 1, 2, …, into `values`, by complex rotation that is restarted often enough to stay
+/// at machine precision; θ in radians.
 pub(crate) fn sines(theta: f64, values: &mut [f64]) {
     let (s, c) = theta.sin_cos();
     for (chunk, slots) in values.chunks_mut(16).enumerate() {

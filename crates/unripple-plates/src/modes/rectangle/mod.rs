@@ -10,6 +10,7 @@ mod product;
 mod readout;
 mod ritz;
 mod separable;
+mod springs;
 
 use super::found::Found;
 use crate::{Medium, PhysicsError};
@@ -20,7 +21,8 @@ use unripple_linalg::Mat;
 
 pub(super) use problem::Problem;
 
-/// Modes of a rectangle: exact where they are products of waves, Ritz sums elsewhere.
+/// Modes of a rectangle: in closed form where they are products of sines and cosines, otherwise by the Ritz
+/// method.
 pub(super) fn solve(problem: &Problem) -> Result<Found, PhysicsError> {
     if problem.separable() { separable(problem) } else { ritz(problem) }
 }
@@ -83,7 +85,7 @@ fn separable(problem: &Problem) -> Result<Found, PhysicsError> {
     Ok(Found { omegas, bending_shares, shapes: Box::new(shapes), error: 0.0 })
 }
 
-/// Modes as Ritz sums, in order of frequency, with the air's mass and their sign.
+/// Modes by the Ritz method, in order of frequency, with the added mass of air and a definite sign.
 fn ritz(problem: &Problem) -> Result<Found, PhysicsError> {
     let adapt::Solution { lines, blocks, error } = adapt::solve(problem)?;
     let (squares, places) = order::ascending(&blocks);

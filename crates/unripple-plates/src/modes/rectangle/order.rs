@@ -1,13 +1,15 @@
-//! Modes in order of frequency, with one convention of sign.
+//! Orders modes by frequency, and gives each a definite sign.
 
 use super::ritz::BlockModes;
 use unripple_linalg::ColRef;
 
-/// Relative difference of ω² below which frequencies count as equal: above rounding, below any splitting that an accuracy
-/// can resolve. With twice this value, pairs twice as far apart would be ordered by symmetry instead of frequency.
+/// Relative difference of ω² below which frequencies count as equal: above rounding errors, below any
+/// difference that an accuracy can resolve. With twice this value, pairs twice as far apart would be
+/// ordered by symmetry instead of frequency.
 const DOUBLE: f64 = 1e-9;
 
-/// Ascending squares and the block and column of each mode; equal ones are ordered by block, then column.
+/// The squared frequencies ω² in ascending order, and the block and column of each mode; modes of equal
+/// frequency are ordered by block, then column.
 pub(crate) fn ascending(blocks: &[BlockModes]) -> (Vec<f64>, Vec<(usize, usize)>) {
     let mut modes: Vec<(f64, usize, usize)> = blocks
         .iter()

@@ -2,6 +2,7 @@
 
 use super::line::Line;
 use super::product::{Product, Symmetry};
+use super::springs::Springs;
 use unripple_linalg::Mat;
 
 /// A rectangle's elastic energy per mass, in products of one function along x and one along y, both on [-1, 1].
@@ -12,15 +13,17 @@ use unripple_linalg::Mat;
 /// of Plates*, NASA SP-160, 1969).
 #[derive(Debug)]
 pub(crate) struct Plate {
-    /// Functions along x and along y.
+    /// Basis functions along x and along y.
     pub(crate) lines: [Line; 2],
-    /// R/ρ_s · (2/side)², in 1/s².
+    /// Tension over mass for each direction, R/ρ_s · (2/side)², in 1/s².
     pub(crate) tension: [f64; 2],
-    /// D/ρ_s · (2/side)⁴, in 1/s².
+    /// Bending stiffness over mass for each direction, D/ρ_s · (2/side)⁴, in 1/s².
     pub(crate) bending: [f64; 2],
+    /// Springs at the ends of x, and at those of y.
+    pub(crate) springs: [Option<Springs>; 2],
     /// Poisson's ratio of the sheet, dimensionless.
     pub(crate) poisson: f64,
-    /// Whether x and y may be exchanged.
+    /// Whether the problem is unchanged if x and y are exchanged.
     pub(crate) square: bool,
 }
 
@@ -33,7 +36,7 @@ impl Plate {
         2.0 * p.weight() * q.weight() * (self.direct(p, q) + p.mirror * self.direct(p, q.mirrored()))
     }
 
-    /// One element, mirror images aside.
+    /// One element of the energy matrix, for products without their mirror images.
     fn direct(&self, Product { x: i, y: j, .. }: Product, Product { x: k, y: l, .. }: Product) -> f64 {
         let [x, y] = &self.lines;
         let mut sum = self.cross()
@@ -41,9 +44,11 @@ impl Plate {
                 + 2.0 * (1.0 - self.poisson) * x.slope[(i, k)] * y.slope[(j, l)]);
         if j == l {
             sum += self.tension[0] * x.slope[(i, k)] + self.bending[0] * x.curvature[(i, k)];
+            sum += self.springs[0].as_ref().map_or(0.0, |springs| springs.energy[(i, k)]);
         }
         if i == k {
             sum += self.tension[1] * y.slope[(j, l)] + self.bending[1] * y.curvature[(j, l)];
+            sum += self.springs[1].as_ref().map_or(0.0, |springs| springs.energy[(j, l)]);
         }
         sum
     }
@@ -58,7 +63,7 @@ impl Plate {
     }
 
     /// The energy matrix of one set of n products, n x n in 1/s², minus `shift` (1/s²) times the identity;
-    /// the lower triangle alone is filled.
+    /// only the lower triangle is filled.
     pub(crate) fn lower_stiffness(&self, products: &[Product], shift: f64) -> Mat<f64> {
         let n = products.len();
         let mut matrix = Mat::zeros(n, n);
@@ -71,21 +76,42 @@ impl Plate {
         matrix
     }
 
-    /// The same sheet with its tension alone.
+    /// The same sheet with its tension and its springs alone.
     pub(crate) fn without_bending(&self) -> Self {
-        Self { bending: [0.0; 2], lines: self.lines.clone(), ..*self }
+        Self { bending: [0.0; 2], lines: self.lines.clone(), springs: self.springs.clone(), ..*self }
     }
 
-    /// Whether a product moves without strain: a constant, or with no tension anything linear in x and y.
+    /// Whether something beside bending stores energy.
+    pub(crate) fn is_held_by_more_than_bending(&self) -> bool {
+        self.tension[0] > 0.0 || self.springs.iter().any(Option::is_some)
+    }
+
+    /// Whether a product moves without strain: a constant, or with no tension anything linear in x and y. Springs against displacement
+    /// leave nothing, those against rotation nothing that is linear across their side.
     pub(crate) fn is_rigid(&self, product: Product) -> bool {
+        let springs = |axis: usize| self.springs[axis].as_ref();
+        if [0, 1].iter().any(|axis| springs(*axis).is_some_and(|springs| springs.lift)) {
+            return false;
+        }
         let most = usize::from(self.tension[0] == 0.0);
-        match (self.lines[0].degree(product.x), self.lines[1].degree(product.y)) {
+        let degree = |axis: usize, n: usize| {
+            let degree = self.lines[axis].degree(n)?;
+            (degree == 0 || !springs(axis).is_some_and(|springs| springs.tilt)).then_some(degree)
+        };
+        match (degree(0, product.x), degree(1, product.y)) {
             (Some(along_x), Some(along_y)) => along_x + along_y <= most,
             _ => false,
         }
     }
 
-    /// The products of one symmetry, rigid ones left out.
+    /// A bound of the relative error that rounding of the energy of springs leaves in a squared frequency of `square` (rad²/s²). Where the
+    /// springs are hard, their energies cancel each other in each mode.
+    pub(crate) fn rounded(&self, square: f64) -> f64 {
+        let springs: f64 = self.springs.iter().flatten().map(Springs::trace).sum();
+        f64::EPSILON * springs / square
+    }
+
+    /// The products of one symmetry class, without rigid-body motions.
     pub(crate) fn products(&self, symmetry: Symmetry) -> Vec<Product> {
         symmetry.products().filter(|p| !self.is_rigid(*p)).collect()
     }

@@ -11,7 +11,8 @@ use unripple_core::Edge;
 pub(crate) struct Polynomials {
     low: i32,
     high: i32,
-    /// Value of J_0, then for each n the a, b of ξ J_n = a_{n+1} J_{n+1} + b_n J_n + a_n J_{n-1}.
+    /// Value of J_0, then for each n the coefficients a, b of the recurrence ξ J_n = a_{n+1} J_{n+1} + b_n
+    /// J_n + a_n J_{n-1}.
     first: f64,
     recurrence: Vec<(f64, f64)>,
 }

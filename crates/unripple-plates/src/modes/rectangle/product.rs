@@ -4,14 +4,15 @@ use super::line::Class;
 use std::f64::consts::FRAC_1_SQRT_2;
 use unripple_linalg::{ColMut, Mat};
 
-/// A deflection of norm 1: one function along x times one along y, alone or with its mirror image in the diagonal.
+/// A deflection with norm 1: a function along x times a function along y, alone or with its mirror image (x
+/// and y exchanged).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Product {
     /// Index of the function along x.
     pub(crate) x: usize,
     /// Index of the function along y.
     pub(crate) y: usize,
-    /// Factor of the mirror image: 0 (none), 1 or -1.
+    /// Factor of the mirror image: 0 (no mirror image), 1 or -1.
     pub(crate) mirror: f64,
 }
 
@@ -25,12 +26,12 @@ impl Product {
         }
     }
 
-    /// Mirror image of the product in the diagonal, x and y exchanged.
+    /// Mirror image of the product: x and y exchanged.
     pub(crate) fn mirrored(self) -> Self {
         Self { x: self.y, y: self.x, ..self }
     }
 
-    /// Value of the deflection where the functions along x and y have these values.
+    /// Value of the deflection at a point, from the values there of the functions along x and y.
     pub(crate) fn at(self, along_x: &[f64], along_y: &[f64]) -> f64 {
         let direct = along_x[self.x] * along_y[self.y];
         if self.mirror == 0.0 {
@@ -39,7 +40,8 @@ impl Product {
         self.weight() * (direct + self.mirror * along_x[self.y] * along_y[self.x])
     }
 
-    /// Values of the deflection at many points, from those of the functions along x and y (points x functions).
+    /// Values of the deflection at many points, from the values there of the functions along x and y
+    /// (points x functions).
     pub(crate) fn fill(self, [along_x, along_y]: &[Mat<f64>; 2], values: ColMut<f64>) {
         let direct = along_x.col(self.x).iter().zip(along_y.col(self.y).iter());
         if self.mirror == 0.0 {
@@ -61,12 +63,12 @@ pub(crate) struct Symmetry {
     pub(crate) x: Class,
     /// Functions along y.
     pub(crate) y: Class,
-    /// Parity under the exchange of x and y, 0 without one.
+    /// Parity under the exchange of x and y, 1 or -1; 0 if the class has none.
     pub(crate) mirror: f64,
 }
 
 impl Symmetry {
-    /// Products of the class, in the order of their functions along x.
+    /// Products of the class, in the order of their indices along x.
     pub(crate) fn products(self) -> impl Iterator<Item = Product> {
         let Self { x, y, mirror } = self;
         (0..x.len())
@@ -74,8 +76,8 @@ impl Symmetry {
             .filter(move |p| mirror == 0.0 || p.x < p.y || (p.x == p.y && mirror > 0.0))
     }
 
-    /// All symmetry classes from two sets of classes of functions, and whether each also stands for its mirror image. `square` if
-    /// x and y may be exchanged.
+    /// All symmetry classes from the classes of functions along x and y, and for each whether its mirror
+    /// image is another class with the same modes. `square` if x and y may be exchanged.
     pub(crate) fn all(x: &[Class], y: &[Class], square: bool) -> Vec<(Self, bool)> {
         let pairs =
             x.iter().enumerate().flat_map(|(i, x)| y.iter().enumerate().map(move |(j, y)| (i, j, *x, *y)));

@@ -16,7 +16,7 @@ const POINTS: usize = 128;
 /// the last lanes.
 const LANES: usize = 16;
 
-/// Evaluates Ritz shapes: sums of products of one function along each side.
+/// Evaluates Ritz mode shapes: sums of products of one function along each side.
 #[derive(Debug)]
 pub(crate) struct Readout {
     sides: [f64; 2],
@@ -33,11 +33,12 @@ pub(crate) struct Readout {
 #[derive(Debug)]
 struct ReadoutBlock {
     products: Vec<Product>,
-    /// Products x modes, scaled.
+    /// Coefficients of the mode shapes, products x modes, times each mode's factor.
     coefficients: Mat<f64>,
-    /// Rank of each mode among all.
+    /// Index of each mode of the class among all modes.
     ranks: Vec<usize>,
-    /// The coefficients again, for one point at a time: [`LANES`] modes of all products, then the next modes.
+    /// A copy of the coefficients for evaluation at single points: [`LANES`] modes of all products, then
+    /// the next modes.
     lanes: Vec<[f64; LANES]>,
 }
 
@@ -63,7 +64,7 @@ impl Readout {
         Self { sides, lines, scale: 2.0 / mass.sqrt(), blocks, arch: Arch::new(), modes }
     }
 
-    /// Values of the functions along x and y at a point, the first scaled.
+    /// Values of the functions along x (times `scale`) and along y at a point.
     fn functions_at(&self, point: Point) -> [Vec<f64>; 2] {
         let mut values = [vec![0.0; self.lines[0].count()], vec![0.0; self.lines[1].count()]];
         self.lines[0].at(2.0 * point.x / self.sides[0] - 1.0, &mut values[0]);
@@ -123,7 +124,7 @@ impl Readout {
 }
 
 impl ReadoutBlock {
-    /// The readout of one class, each mode's coefficients times its factor.
+    /// The readout of one symmetry class, with each mode's coefficients multiplied by its factor.
     fn new(block: BlockModes, ranks: Vec<usize>, factors: &[f64]) -> Self {
         let BlockModes { products, mut coefficients, .. } = block;
         for (m, factor) in factors.iter().enumerate() {
@@ -144,7 +145,7 @@ impl ReadoutBlock {
 struct Sum<'a> {
     block: &'a ReadoutBlock,
     deflections: &'a [f64],
-    /// All shapes, of which those of the class are set.
+    /// The shapes of all modes, of which those of the class are written.
     row: &'a mut [f64],
 }
 

@@ -6,18 +6,19 @@ use super::plate::Plate;
 use super::product::{Product, Symmetry};
 use unripple_linalg::{Accum, Cholesky, Mat, Par, multiply};
 
-/// Modes are computed up to this share above ω² of the top, so that those left out are well separated from those kept.
-/// Halved, they are closer, and each sweep removes less of them.
+/// Modes are computed up to this share above the top ω², so that the modes that are left out are well
+/// separated from those that are kept. Halved, they are closer, and each iteration removes less of them.
 const ABOVE: f64 = 0.3;
 
-/// Number of times that the inverse is applied to the vectors (subspace iteration). Each time, rounding errors along
-/// vectors of high energy shrink by the ratio of that energy to the top's; one more changes only the last digits.
+/// Number of times that the inverse is applied to the vectors (subspace iteration). Each time, rounding
+/// errors along vectors of high energy shrink by the ratio of that energy to the top energy; one more
+/// changes only the last digits.
 const SWEEPS: usize = 2;
 
-/// Modes within one symmetry class, ascending.
+/// Modes of one symmetry class, in order of ascending frequency.
 #[derive(Debug)]
 pub(crate) struct BlockModes {
-    /// The products that shapes are sums of.
+    /// The products of basis functions of which mode shapes are sums.
     pub(crate) products: Vec<Product>,
     /// ω² of each mode, ascending, in 1/s².
     pub(crate) squares: Vec<f64>,
@@ -25,7 +26,8 @@ pub(crate) struct BlockModes {
     pub(crate) bending_shares: Vec<f64>,
     /// Coefficients, products x modes; columns are orthonormal.
     pub(crate) coefficients: Mat<f64>,
-    /// Largest relative error of a frequency, estimated; infinite where the products do not reach the top.
+    /// Largest relative error of a frequency, estimated; infinite if the products are too few to reach the
+    /// top frequency.
     pub(crate) error: f64,
 }
 
@@ -42,8 +44,8 @@ impl BlockModes {
     }
 }
 
-/// The modes of one symmetry class with ω² up to `top`, without rigid-body modes. The error is estimated from the functions of
-/// the lines beyond those of the class.
+/// The modes of one symmetry class with ω² up to `top`, without rigid-body modes. The error is estimated
+/// from additional functions beyond those of the class.
 ///
 /// `None` if the eigenvalue iteration does not converge.
 pub(crate) fn solve_block(plate: &Plate, symmetry: Symmetry, top: f64, par: Par) -> Option<BlockModes> {
@@ -64,7 +66,7 @@ pub(crate) fn solve_block(plate: &Plate, symmetry: Symmetry, top: f64, par: Par)
     Some(BlockModes { products, squares, bending_shares, coefficients, error })
 }
 
-/// The share of bending in each mode's elastic energy: 1 minus the share of tension.
+/// The share of bending in each mode's elastic energy: 1 minus that of tension and springs.
 fn bending_shares(
     plate: &Plate,
     products: &[Product],
@@ -72,11 +74,11 @@ fn bending_shares(
     coefficients: &Mat<f64>,
     par: Par,
 ) -> Vec<f64> {
-    if plate.tension[0] == 0.0 {
+    if !plate.is_held_by_more_than_bending() {
         return vec![1.0; squares.len()];
     }
-    let tension = plate.without_bending().stiffness(products, products);
-    let forces = product(tension.as_ref(), coefficients.as_ref(), par);
+    let others = plate.without_bending().stiffness(products, products);
+    let forces = product(others.as_ref(), coefficients.as_ref(), par);
     let pairs = coefficients.col_iter().zip(forces.col_iter());
     pairs
         .zip(squares)
@@ -87,7 +89,7 @@ fn bending_shares(
         .collect()
 }
 
-/// Eigenvalues up to [`ABOVE`] beyond `top`, and their vectors.
+/// Eigenvalues up to the share [`ABOVE`] above `top`, and their vectors.
 ///
 /// The largest eigenvalues of the energy matrix H are 10¹⁰ times the lowest, and the rounding errors of its decomposition
 /// would be relative to the largest. Therefore (H + top)⁻¹ is decomposed, whose largest eigenvalues belong to the modes in

@@ -29,21 +29,22 @@ pub(crate) struct Separable {
     amplitudes: Vec<f64>,
 }
 
-/// The functions along one direction, by whether the ends hold displacement.
+/// The sines or cosines along one direction, which depend on the ends at which displacement is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Wave {
-    /// sin(nπx/L), n = 1, 2, …: both ends held.
+    /// sin(nπx/L), n = 1, 2, …: zero displacement at both ends.
     Sine,
-    /// cos(nπx/L), n = 0, 1, …: neither end held.
+    /// cos(nπx/L), n = 0, 1, …: both ends free.
     Cosine,
-    /// sin((n-½)πx/L), n = 1, 2, …: the lower end held.
+    /// sin((n-½)πx/L), n = 1, 2, …: zero displacement at the lower end only.
     QuarterSine,
-    /// cos((n-½)πx/L), n = 1, 2, …: the upper end held.
+    /// cos((n-½)πx/L), n = 1, 2, …: zero displacement at the upper end only.
     QuarterCosine,
 }
 
 impl Wave {
-    /// The functions for a line with these edge conditions; without bending stiffness clamped and supported ends are alike.
+    /// The functions for a line with these edge conditions; without bending stiffness, clamped and
+    /// supported ends are equivalent.
     pub(crate) fn of(low: Edge, high: Edge) -> Self {
         match (low != Edge::Free, high != Edge::Free) {
             (true, true) => Self::Sine,
@@ -53,7 +54,7 @@ impl Wave {
         }
     }
 
-    /// Wavenumber of function `n` on a side, in rad/m.
+    /// Wavenumber of function `n` on a side of the length `side` (m), in rad/m.
     fn wavenumber(self, n: usize, side: f64) -> f64 {
         let halves = match self {
             Self::Sine | Self::Cosine => n as f64,
@@ -62,7 +63,7 @@ impl Wave {
         halves * PI / side
     }
 
-    /// The lowest index.
+    /// The lowest index n of the functions.
     fn first(self) -> usize {
         usize::from(self != Self::Cosine)
     }
@@ -89,8 +90,8 @@ impl Wave {
 }
 
 impl Separable {
-    /// All modes with wavenumber up to `k_max` (rad/m), ascending, and their wavenumbers. `sides` in metres, `mass` the
-    /// whole sheet's in kg.
+    /// All modes with wavenumber up to `k_max` (rad/m), ascending, and their wavenumbers. `sides` are in
+    /// metres, `mass` is that of the whole sheet in kg.
     ///
     /// k² = k_x² + k_y²; equal ones are ordered by the index along x.
     pub(crate) fn up_to(sides: [f64; 2], waves: [Wave; 2], k_max: f64, mass: f64) -> (Self, Vec<f64>) {
@@ -163,7 +164,7 @@ impl Separable {
         weights.transpose().to_owned()
     }
 
-    /// The same modes, each shape times its factor.
+    /// The same modes, with each shape multiplied by its factor.
     pub(crate) fn scaled(mut self, factors: &[f64]) -> Self {
         self.amplitudes.iter_mut().zip(factors).for_each(|(a, f)| *a *= f);
         self
