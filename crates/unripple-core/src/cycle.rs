@@ -9,16 +9,17 @@ pub trait Cycle {
     /// Number of samples per channel in this cycle: the length of every [`Cycle::drive`] and [`Cycle::heard`] buffer.
     fn frames(&self) -> usize;
 
-    /// When the cycle began, by the device's own clock: the time at which its first sample passes the device's ports. The latency of
-    /// converters and cables behind the ports comes on top.
+    /// The instant at which the first sample of the cycle passes the device's ports, by the device's own
+    /// clock. The latency of converters and cables behind the ports comes on top.
     fn began(&self) -> Instant;
 
-    /// The buffer to fill for an output (by its index), with samples scaled as in [`Device::exchange`](crate::Device::exchange).
-    /// An empty slice for an output beyond the last.
+    /// The buffer to fill for an output (by its index), with samples scaled as in
+    /// [`Device::exchange`](crate::Device::exchange). The slice is empty for an index beyond the last
+    /// output.
     fn drive(&mut self, output: usize) -> &mut [f32];
 
-    /// The samples that an input (by its index) recorded, as float32 with full scale 1, [`Cycle::frames`] of them. An empty
-    /// slice for an input beyond the last.
+    /// The samples that an input (by its index) recorded, as float32 with full scale 1, [`Cycle::frames`]
+    /// of them. The slice is empty for an index beyond the last input.
     fn heard(&self, input: usize) -> &[f32];
 }
 

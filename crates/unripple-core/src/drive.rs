@@ -70,7 +70,7 @@ impl Drive {
         self.channels.first().map_or(0, Vec::len)
     }
 
-    /// Length in seconds.
+    /// Length of the drive in seconds.
     pub fn duration(&self) -> f64 {
         self.samples() as f64 / self.rate
     }

@@ -5,14 +5,14 @@ use crate::OutOfRange;
 /// Why a value of this crate was refused: a wrong size, or a number that is not finite or out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CoreError {
-    /// Two sizes that must agree do not.
+    /// Two sizes that must be equal differ.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
-        /// Name of the quantity that was counted.
+        /// Name of what was counted, such as `response samples`.
         what: &'static str,
-        /// How many there should be.
+        /// The required number.
         expected: usize,
-        /// How many there are.
+        /// The number that was found.
         found: usize,
     },
     /// A sample is infinite or not a number.
@@ -20,9 +20,9 @@ pub enum CoreError {
     NotFinite {
         /// What the sample belongs to, such as `drive`.
         what: &'static str,
-        /// Name of the channel that holds it.
+        /// Name of the channel that holds the sample.
         channel: String,
-        /// Index of the sample.
+        /// Index of the sample in its channel.
         sample: usize,
         /// The value that was found.
         found: f64,

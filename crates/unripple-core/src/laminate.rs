@@ -1,4 +1,5 @@
-//! Layered sheets reduced to one layer that bends alike: classical lamination theory.
+//! Layered sheets reduced to one homogeneous layer of the same bending stiffness: classical lamination
+//! theory.
 
 use crate::Material;
 
@@ -33,23 +34,26 @@ impl Layer {
 /// A homogeneous sheet with the mass, the bending stiffness and the strength of a laminate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Laminate {
-    /// Young's modulus in Pa that gives the bending stiffness at this thickness.
+    /// Young's modulus in Pa with which a homogeneous sheet of this thickness has the bending stiffness of
+    /// the laminate.
     pub young: f64,
     /// Mean density in kg/m³.
     pub density: f64,
     /// Mean Poisson's ratio, weighted by in-plane stiffness.
     pub poisson: f64,
-    /// Tensile strength in Pa at which the first layer yields, in tension or in bending, whichever is less; `None` if that of a layer is
+    /// Tensile strength in Pa of the homogeneous sheet: its stress where the first layer of the laminate
+    /// yields, in tension or in bending, whichever is less. `None` if the strength of some layer is
     /// unknown.
     pub strength: Option<f64>,
-    /// Thickness of all layers in metres.
+    /// Total thickness of all layers in metres.
     pub thickness: f64,
-    /// Height of the neutral plane over the underside of the first layer, in metres.
+    /// Height of the neutral plane above the underside of the first layer, in metres.
     pub neutral: f64,
 }
 
 impl Laminate {
-    /// Layers bonded without slip, from the underside up. `None` without a layer, or if none has stiffness and thickness.
+    /// The laminate of layers bonded without slip, listed from the underside up. `None` if the list is
+    /// empty, or if the total thickness or the total in-plane stiffness is not positive.
     ///
     /// The neutral plane lies where bending stretches nothing in all: z₀ = Σ Qᵢ tᵢ zᵢ / Σ Qᵢ tᵢ with Qᵢ = Eᵢ/(1−νᵢ²), tᵢ the layers' thicknesses
     /// and zᵢ their middles. The bending stiffness about it is D = Σ Qᵢ (tᵢ³/12 + tᵢ (zᵢ − z₀)²) (Jones, *Mechanics of Composite Materials*,

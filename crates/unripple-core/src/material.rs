@@ -15,7 +15,7 @@ pub struct Material {
     pub poisson: f64,
     /// Stress at yield, or at fracture if brittle, in Pa.
     pub strength: f64,
-    /// Where the values are from, and by how much that source differs from them.
+    /// Source of the values, and how far the values in that source differ from those used here.
     pub source: &'static str,
 }
 
@@ -129,7 +129,7 @@ impl Material {
         MATERIALS.iter().map(|material| material.name).collect()
     }
 
-    /// The built-in material of that name, or with that alias, whatever the case of its letters; `None` if there is none.
+    /// The built-in material with a given name or alias, upper or lower case; `None` if there is none.
     pub fn named(name: &str) -> Option<&'static Self> {
         let called = |known: &&str| known.eq_ignore_ascii_case(name);
         MATERIALS.iter().find(|m| called(&m.name) || m.aliases.iter().any(&called))

@@ -1,25 +1,27 @@
-//! Observers of long computations: what is being computed, and how much of it is done.
+//! Progress of long computations: observers are notified of what is being computed, and how much of it is
+//! done.
 
 use std::cell::RefCell;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Whoever is told how far a long computation has come. It is called on any thread that takes part, rarely enough that a lock costs
-/// nothing.
+/// Receives progress notifications from a long computation. Its methods are called from any thread of the
+/// computation, rarely enough that a lock in them costs nothing.
 pub trait Observer: Send + Sync {
-    /// A part of the computation begins; `what` it is, in words.
+    /// Called when a part of the computation begins; `what` describes that part in words.
     fn part(&self, what: &str);
 
-    /// The share (0 to 1) of that part that is done.
+    /// Called with the share (0 to 1) of the current part that is done.
     fn done(&self, share: f64);
 }
 
 thread_local! {
-    /// The observer of what this thread computes.
+    /// The observer that computations begun on this thread notify; `None` if there is none.
     static HERE: RefCell<Option<Arc<dyn Observer>>> = const { RefCell::new(None) };
 }
 
-/// The observer of a computation, if it has one. The computation takes it from the thread that begins it, and hands it to threads that take
-/// part, so that no function on the way has to know of it. It changes no result.
+/// The [`Observer`] of a computation, if there is one: a handle through which the computation reports its
+/// progress. A computation takes the handle that was set for the thread on which it begins, and passes it
+/// to its other threads; functions in between need no parameter for it. It changes no result.
 ///
 /// ```
 /// use std::sync::{Arc, Mutex};
@@ -60,23 +62,25 @@ impl std::fmt::Debug for Observed {
 }
 
 impl Observed {
-    /// Observed by `observer`, or by nobody.
+    /// A handle that notifies `observer`; with `None`, progress is not reported.
     pub fn by(observer: Option<Arc<dyn Observer>>) -> Self {
         Self(observer)
     }
 
-    /// The observer of what this thread computes.
+    /// The handle that is set for the current thread (see [`Observed::during`]); one without an observer if
+    /// none is set.
     pub fn here() -> Self {
         Self(HERE.with_borrow(Clone::clone))
     }
 
-    /// Runs `work` on this thread with this observer; afterwards the thread has the observer that it had before.
+    /// Runs `work` on the current thread with this handle set for that thread, and restores the previous
+    /// handle afterwards.
     pub fn during<T>(&self, work: impl FnOnce() -> T) -> T {
         let _back = Back(HERE.replace(self.0.clone()));
         work()
     }
 
-    /// The same observer, told of all parts as parts of `whole`.
+    /// A handle to the same observer that prefixes the name of each part with `whole` and a colon.
     #[must_use]
     pub fn within(&self, whole: impl Into<String>) -> Self {
         let within = |to: &Arc<dyn Observer>| -> Arc<dyn Observer> {
@@ -85,27 +89,28 @@ impl Observed {
         Self(self.0.as_ref().map(within))
     }
 
-    /// Tells that a part begins, in words that are made only if somebody is told.
+    /// Notifies the observer that a part of the computation begins; `what`, which describes the part, is
+    /// called only if there is an observer.
     pub fn part(&self, what: impl FnOnce() -> String) {
         if let Some(observer) = &self.0 {
             observer.part(&what());
         }
     }
 
-    /// Tells the share (0 to 1) of the part that is done.
+    /// Notifies the observer of the share (0 to 1) of the current part that is done.
     pub fn done(&self, share: f64) {
         if let Some(observer) = &self.0 {
             observer.done(share.clamp(0.0, 1.0));
         }
     }
 
-    /// A count of the steps of a part, `total` of them, which may be taken on several threads.
+    /// A counter for a part that consists of `total` steps; the steps may run on several threads.
     pub fn steps(&self, total: usize) -> Steps {
         Steps { observed: self.clone(), total: total.max(1) as f64, taken: Mutex::new(0.0) }
     }
 }
 
-/// Gives a thread the observer of before back, also after a panic.
+/// Restores the previous observer of a thread when it is dropped, also after a panic.
 struct Back(Option<Arc<dyn Observer>>);
 
 impl Drop for Back {
@@ -114,7 +119,7 @@ impl Drop for Back {
     }
 }
 
-/// An observer that is told of parts of a whole.
+/// An observer that prefixes the names of parts with `whole` before it passes them on.
 struct Within {
     whole: String,
     to: Arc<dyn Observer>,
@@ -130,7 +135,7 @@ impl Observer for Within {
     }
 }
 
-/// The steps of a part that are done, counted on all threads that take them.
+/// Counts the finished steps of a part of a computation, on all threads, and notifies the observer.
 #[derive(Debug)]
 pub struct Steps {
     observed: Observed,
@@ -139,9 +144,10 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Takes one step, or a share (0 to 1) of it, and tells how much is done.
+    /// Counts one step as done, or only a `share` (0 to 1) of it, and notifies the observer of the share of
+    /// all steps that is done.
     pub fn take(&self, share: f64) {
-        // Held while it is told, so that shares of several threads come in order.
+        // Locked during the notification, so that shares of several threads are reported in order.
         let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
         *taken += share.clamp(0.0, 1.0);
         self.observed.done(*taken / self.total);

@@ -3,28 +3,29 @@
 use crate::{Outline, Point, Side};
 use std::f64::consts::PI;
 
-/// The outline of a piezo patch about its centre.
+/// The shape of a piezo patch and its size, relative to the patch's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Patch {
-    /// A disc about the centre.
+    /// A disc around the centre of the patch.
     Round {
-        /// Its radius, in metres.
+        /// Radius of the disc, in metres.
         radius: f64,
     },
-    /// A rectangle about the centre.
+    /// A rectangle around the centre of the patch.
     Rectangular {
-        /// Its width and height, in metres.
+        /// Width and height of the rectangle before it is turned, in metres.
         sides: [f64; 2],
-        /// Angle by which the patch is turned, in radians anticlockwise.
+        /// Angle by which the rectangle is turned, in radians anticlockwise.
         angle: f64,
     },
 }
 
-/// Number of intervals in which a curved side of a boundary is searched for its deepest places in a rectangle. With twice this value,
-/// notches half as wide are found.
+/// Number of intervals of a curved side of the boundary in each of which the search looks for the point
+/// deepest inside a rectangular patch. With twice this value, notches half as wide are found.
 const LATTICE: usize = 64;
 
-/// Steps of golden-section search around such a place: it ends at 1e-9 of the side.
+/// Steps of golden-section search around each deepest point: the search ends within 1e-9 of the length of
+/// the side.
 const STEPS: usize = 44;
 
 /// Share of an interval at which golden-section search looks.
@@ -39,7 +40,8 @@ impl Patch {
         }
     }
 
-    /// Whether the patch, about a point of the sheet (m), lies wholly on the sheet; it may touch the boundary.
+    /// Whether the patch lies wholly on the sheet when it is centred at the point `centre` (m); it may
+    /// touch the boundary.
     ///
     /// ```
     /// use unripple_core::{Outline, Patch, Point, Shape};
@@ -65,7 +67,8 @@ impl Patch {
     }
 }
 
-/// Size of the largest rectangle of the same proportions that a side of a boundary does not enter, as a share of the rectangle.
+/// Size of the largest rectangle about the same centre and of the same proportions that a side of the
+/// boundary does not enter, relative to the size of the given rectangle.
 fn depth(side: &Side, centre: Point, [width, height]: [f64; 2], angle: f64) -> f64 {
     let (sin, cos) = angle.sin_cos();
     // A point of the side in the rectangle's axes, with half its sides as units.
@@ -94,7 +97,7 @@ fn depth(side: &Side, centre: Point, [width, height]: [f64; 2], angle: f64) -> f
     least(&mut lowest.map(|i| deepest(&share, at(i.saturating_sub(1)), at((i + 1).min(LATTICE)))))
 }
 
-/// Where a function is least between two places, by golden-section search.
+/// Least value of a function between two parameters, by golden-section search.
 fn deepest(share: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     for _ in 0..STEPS {
         let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));

@@ -1,14 +1,15 @@
 //! A damped oscillator as a pole: natural frequency, decay rate, impulse response, and its initial condition.
 
-/// The initial condition that a unit impulse gives an oscillation: a velocity or a displacement.
+/// The initial condition of an oscillation just after a unit impulse: a velocity or a displacement.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Onset {
     /// Displacement 0 and velocity 1: an oscillator excited by a force impulse. Undamped normal modes, and modes that damping
     /// does not couple, start like this.
     #[default]
     Velocity,
-    /// Displacement 1/ω and velocity 0: the quadrature part. The phase of complex modes, which damping couples, depends on the
-    /// place, so that each needs oscillations of both kinds.
+    /// Displacement 1/ω and velocity 0, in quadrature to [`Onset::Velocity`]. Complex modes, which damping
+    /// couples, vibrate with a phase that depends on the place, so that each needs oscillations of both
+    /// kinds.
     Displacement,
 }
 
@@ -21,7 +22,7 @@ pub struct Pole {
     pub omega: f64,
     /// Decay rate of the amplitude σ = 1/τ, in 1/s.
     pub sigma: f64,
-    /// The initial condition that a unit impulse gives it.
+    /// The initial condition of the oscillation just after a unit impulse.
     pub onset: Onset,
 }
 
@@ -38,7 +39,7 @@ impl Pole {
         Self { omega, sigma, onset: Onset::Displacement }
     }
 
-    /// The initial state `[displacement, velocity]` just after a unit impulse, per unit of modal input.
+    /// The initial state `[displacement, velocity]` just after a unit impulse of modal force.
     pub fn kick(self) -> [f64; 2] {
         match self.onset {
             Onset::Velocity => [0.0, 1.0],

@@ -27,12 +27,13 @@ impl Random {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A uniformly distributed number from `low` to `high`, in their unit.
+    /// A uniformly distributed number from `low` to `high`, in the unit of these bounds.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.uniform()
     }
 
-    /// A number from `low` to `high`, both positive, whose logarithm is uniformly distributed; in their unit.
+    /// A number from `low` to `high`, both positive and in the same unit, whose logarithm is uniformly
+    /// distributed.
     pub fn decades(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }

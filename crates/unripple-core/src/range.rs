@@ -13,7 +13,7 @@ use std::borrow::Cow;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{what}: expected {expected}, found {found}")]
 pub struct OutOfRange {
-    /// What the number is, with its unit.
+    /// Name of the quantity, with its unit, such as `window (s)`.
     pub what: Cow<'static, str>,
     /// The legal values, in words for people.
     pub expected: Cow<'static, str>,
@@ -32,7 +32,8 @@ impl OutOfRange {
     }
 }
 
-/// Checks a number: `Ok` if `legal` is true and `found` is finite, else the error.
+/// Checks a number: `Ok` if `legal` is true and `found` is finite, else an error that names the quantity
+/// `what` and the values `expected`.
 ///
 /// # Errors
 /// [`OutOfRange`], with what was expected and what was found.

@@ -38,9 +38,9 @@ pub struct Conditions {
     pub rate: f64,
     /// Lowest and highest frequency, in Hz.
     pub band: [f64; 2],
-    /// Shortest wavelength of the band, in metres: 2π/k at its top.
+    /// Shortest wavelength in the band, in metres: 2π/k at the highest frequency.
     pub lambda_min: f64,
-    /// The outline of the sheet: the region that points may lie in.
+    /// The outline of the sheet: the region in which points may lie.
     pub outline: Outline,
 }
 
@@ -61,7 +61,7 @@ impl Conditions {
 pub struct Port {
     /// Name of the actuator.
     pub name: String,
-    /// Where it acts, in metres.
+    /// Where the actuator acts on the sheet, in metres.
     pub at: Point,
 }
 
@@ -100,8 +100,8 @@ pub struct ModalResponses {
     pub shapes: Arc<dyn Shapes>,
     /// Frequency band, sample rate and region for which the responses are valid.
     pub conditions: Conditions,
-    /// A bound of the relative error with which the natural frequencies of the sheet were computed; 0 where they are exact, or not from a
-    /// computation.
+    /// Upper bound of the relative error of the sheet's computed natural frequencies; 0 if they are exact,
+    /// or were not computed but fitted to measurements.
     pub frequency_error: f64,
 }
 
@@ -155,7 +155,7 @@ impl SampledResponses {
         &self.data[start..start + self.samples]
     }
 
-    /// The responses at some of the points only, given by their indices, in the order given.
+    /// The responses at a subset of the points: those with the indices `chosen`, in the order of that list.
     ///
     /// # Errors
     /// [`CoreError::Size`] for an index that is not below the number of points.

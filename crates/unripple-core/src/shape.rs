@@ -3,8 +3,9 @@
 use crate::{Point, Side};
 use std::f64::consts::PI;
 
-/// Number of straight pieces that stand for a curved side of a path, for drawing and for the inside test near a corner.
-/// With twice as many, such a polygon lies four times as near its curve.
+/// Number of straight pieces by which a curved side of a path is approximated, for drawing and for the test
+/// whether a point near a corner is inside. With twice as many, the distance between curve and pieces is a
+/// fourth.
 const FLAT: usize = 24;
 
 /// A closed curve whose bounding box has its lower-left corner at the origin. Lengths and coordinates are in metres.
@@ -36,9 +37,9 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The sides in order, anticlockwise. Those of a rectangle and a stadium begin with the bottom side, those of a polygon and a
-    /// path with the first given; a circle is one side that begins at its lowest point. Sides of a stadium without length are left
-    /// out.
+    /// The sides in order, anticlockwise. The list begins with the bottom side of a rectangle or stadium,
+    /// and with the first vertex or side of a polygon or path; a circle is one side that begins at its
+    /// lowest point. Straight sides of length 0 in a stadium are left out.
     pub fn sides(&self) -> Vec<Side> {
         let p = Point::new;
         let line = |from, to| Side::Line { from, to };

@@ -3,8 +3,9 @@
 use crate::Point;
 use std::f64::consts::TAU;
 
-/// One smooth side of a boundary curve, given by a parameter from 0 (start) to 1 (end). The sides of a
-/// [`Shape`](crate::Shape) have its inside to their left, those of a [`Loop`](crate::Loop) the sheet.
+/// One smooth side of a boundary curve, described by a parameter from 0 (start) to 1 (end). Sides of a
+/// [`Shape`](crate::Shape) have the inside of the shape to their left; sides of a [`Loop`](crate::Loop)
+/// have the sheet to their left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Side {
     /// A straight line.
@@ -151,8 +152,8 @@ impl Side {
         }
     }
 
-    /// A search on a lattice of parameters, then Newton's method on the squared distance, held between the
-    /// lattice's neighbours.
+    /// The parameter of the point nearest to `p`: a search on a lattice of parameters, then Newton's method
+    /// on the squared distance, limited to the interval between the neighbouring lattice points.
     fn nearest_on_curve(&self, p: Point) -> f64 {
         // Fine enough that Newton's method starts at the nearest of a cubic's few minima.
         const LATTICE: usize = 32;

@@ -17,7 +17,8 @@ pub struct Surface {
     pub finger: Finger,
     /// The actuators, in channel order.
     pub actuators: Vec<Actuator>,
-    /// Relative accuracy to which natural frequencies are to be computed, a ratio; `None` for that of each computation.
+    /// Relative accuracy to which natural frequencies are to be computed, a ratio; `None` for the default
+    /// accuracy of each computation.
     pub accuracy: Option<f64>,
 }
 
@@ -51,9 +52,10 @@ pub struct Sheet {
 pub enum Decay {
     /// One amplitude decay time for all modes, in seconds.
     Time(f64),
-    /// Amplitude decay time against frequency: (Hz, s), frequencies ascending; held constant beyond both ends.
+    /// Amplitude decay time as a table over frequency: pairs (Hz, s), frequencies ascending; constant below
+    /// the first and above the last frequency.
     Table(Vec<(f64, f64)>),
-    /// Loss factor η of the material, dimensionless; only bending dissipates.
+    /// Loss factor η of the material, dimensionless; it applies to bending, not to tension.
     LossFactor(f64),
 }
 
@@ -82,13 +84,13 @@ impl Air {
 /// What the drive may contain: frequency band, sample rate and limits of amplitude.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Emission {
-    /// Lowest and highest frequency, in Hz. Modes outside are left out of responses.
+    /// Lowest and highest frequency, in Hz. Modes outside this band are left out of responses.
     pub band: [f64; 2],
     /// Samples per second.
     pub rate: f64,
     /// Largest magnitude of the drive of each actuator, in the actuator's unit (N, A or V).
     pub limit: f64,
-    /// Largest rms of the drive of each actuator, in the actuator's unit; `None` for no such limit.
+    /// Largest rms of the drive of each actuator, in the actuator's unit; `None` if the rms is not limited.
     pub rms_limit: Option<f64>,
 }
 
@@ -126,11 +128,12 @@ pub struct Contact {
 pub struct Actuator {
     /// Name of the actuator, unique on the surface.
     pub name: String,
-    /// Where it acts, in metres.
+    /// Where the actuator acts on the sheet, in metres.
     pub at: Point,
     /// Kind of transducer and its constants.
     pub kind: ActuatorKind,
-    /// Radius of the disc over which the force of a point force, a magnet or an exciter is evenly spread, in metres; 0 for a point.
+    /// Radius in metres of the disc over which a point force, a magnet or an exciter spreads its force
+    /// evenly; 0 for a force at a point.
     pub contact_radius: f64,
 }
 
@@ -167,7 +170,8 @@ pub enum ActuatorKind {
         housing_mass: f64,
         /// Natural frequency of the housing on its spring while the coil is held still, in Hz.
         resonance: f64,
-        /// Quality factor of that resonance, without the electrical damping by the coil.
+        /// Quality factor of the resonance of the housing on its spring, without the electrical damping by
+        /// the coil.
         quality_factor: f64,
         /// Whether the amplifier sets the current or the voltage.
         driven_by: CoilDrive,
@@ -194,7 +198,8 @@ impl ActuatorKind {
         }
     }
 
-    /// The coil of a moving magnet or an exciter; `None` for a force and a patch, which have none.
+    /// The coil of a moving-magnet actuator or an exciter; `None` for an ideal force and a piezo patch,
+    /// which have no coil.
     pub fn coil(&self) -> Option<VoiceCoil> {
         match *self {
             Self::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by }
@@ -206,7 +211,7 @@ impl ActuatorKind {
     }
 }
 
-/// What the coils of all kinds of actuators have in common.
+/// The coil of a moving-magnet actuator or an exciter: its constants and how it is driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VoiceCoil {
     /// Force constant Bl (force per coil current), in N/A.

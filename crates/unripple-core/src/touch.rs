@@ -12,13 +12,14 @@ use crate::Point;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
-    /// Number of the contact: the same from `Down` to `Up`, and never used for another contact.
+    /// Number that identifies the contact from `Down` to `Up`; it is never used again for another contact.
     pub finger: u64,
     /// Whether the finger was put down, moved or was lifted.
     pub phase: Phase,
-    /// Position on the surface, in metres. With `Up`, the last position.
+    /// Position of the finger on the surface, in metres; for `Up`, its last position.
     pub at: Point,
-    /// Time of the event, in s of the clock of its source; it never decreases.
+    /// Time of the event, in seconds of the clock of the source of touches; it never decreases from one
+    /// event to the next.
     pub time: f64,
     /// Pressing force, in N; `None` where it is not known.
     pub force: Option<f64>,

@@ -32,8 +32,8 @@ impl std::fmt::Debug for Convolver {
 }
 
 impl Convolver {
-    /// A plan for results of `samples` samples. Signals of lengths a and b need a + b − 1; with fewer, the convolution
-    /// can become circular.
+    /// A plan for convolutions whose results have at most `samples` samples: a + b − 1 for signals of
+    /// lengths a and b. With fewer, the convolution can become circular.
     pub fn new(samples: usize) -> Self {
         let size = smooth_size(samples.max(1));
         let mut planner = RealFftPlanner::new();
@@ -45,7 +45,8 @@ impl Convolver {
         }
     }
 
-    /// Number of samples N of the Fourier transform: at least the number asked for.
+    /// Number of samples N of the Fourier transform: at least the number of samples passed to
+    /// [`Convolver::new`].
     pub fn size(&self) -> usize {
         self.size
     }

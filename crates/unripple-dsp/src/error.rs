@@ -5,14 +5,14 @@ use unripple_core::OutOfRange;
 /// Why a signal or a plan was refused: a wrong size, or a number out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DspError {
-    /// Two sizes that must agree do not.
+    /// Two sizes that must be equal differ.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
-        /// Name of the quantity that was counted.
+        /// Name of what was counted.
         what: &'static str,
-        /// How many there should be.
+        /// The required number.
         expected: usize,
-        /// How many there are.
+        /// The number that was found.
         found: usize,
     },
     /// A number is out of its range.

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use unripple_core::Pole;
 use unripple_linalg::Mat;
 
-/// An interpolation kernel from a reduced sample rate to one `step` times as high: `taps` weights for each of `step` phases.
+/// An interpolation kernel from a reduced sample rate to a rate `step` times as high: `taps` weights for
+/// each of `step` phases.
 ///
 /// A Kaiser-windowed sinc (Kaiser, in *System Analysis by Digital Computer*, 1966, chapter 7), for signals that stay below
 /// half the reduced rate by a margin.
@@ -32,14 +33,15 @@ impl Kernel {
         self.weights.nrows()
     }
 
-    /// Number of reduced samples needed before the first.
+    /// Number of samples at the reduced rate that the kernel needs before time 0 for the first output
+    /// sample.
     pub(crate) fn lead(&self) -> usize {
         (self.taps() / 2).saturating_sub(1)
     }
 
-    /// Half the number of taps, and the window's β, for which signals up to `fill` times half the reduced rate are interpolated
-    /// with the relative error `accuracy`, by Kaiser's design formulas. The accuracy is divided by 2.5 since several images fold
-    /// onto the signal.
+    /// Half the number of taps, and the window's β, with which signals of frequencies up to `fill` times
+    /// half the reduced rate are interpolated within the relative error `accuracy`, by Kaiser's design
+    /// formulas. The accuracy is divided by 2.5 since several images fold onto the signal.
     pub(crate) fn size(fill: f64, accuracy: f64) -> (usize, f64) {
         let attenuation = (-20.0 * (accuracy / 2.5).log10()).max(21.0);
         let beta = if attenuation > 50.0 {

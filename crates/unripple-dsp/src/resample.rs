@@ -2,8 +2,8 @@
 
 use crate::{kaiser, sinc};
 
-/// Number of zeros of the sinc on each side. With [`BETA`] the transition band reaches 5 % of the rate to each side of half
-/// the rate; doubled, it is half as wide for twice the multiplications.
+/// Number of zeros of the sinc on each side. With [`BETA`] the transition band reaches 5 % of the rate to
+/// each side of half the rate; with twice as many zeros, it is half as wide for twice the multiplications.
 const ZEROS: usize = 48;
 
 /// Shape of the Kaiser window: side lobes below -110 dB. With twice this value, they would sink below what float32 files

@@ -2,7 +2,8 @@
 
 use realfft::RealFftPlanner;
 
-/// Share of the total energy of `channels` that lies above the frequency `hz` (Hz), from 0 to 1; 0 for silence.
+/// Share of the total energy of `channels` that lies above the frequency `hz` (Hz), from 0 to 1; 0 if all
+/// samples are zero.
 ///
 /// Each channel (of any length, at `rate` samples per second) is transformed as a whole, without a window, so that by
 /// Parseval's theorem the shares below and above add up to one. A bin exactly at `hz` counts as below.

@@ -104,7 +104,7 @@ impl ModalSynth {
         self.double.weights.ncols()
     }
 
-    /// Number of multiplications and additions for each row of weights.
+    /// Number of multiplications and additions needed for each response (each row of weights).
     pub fn operations(&self) -> usize {
         let tables = &self.double;
         let interpolation = if tables.slow.is_empty() { 0 } else { self.samples * tables.weights.nrows() };
@@ -251,7 +251,8 @@ fn product<T: Sample>(
     }
 }
 
-/// The interpolation kernel of least work, and the indices of the modes that it is accurate for, ascending.
+/// The interpolation kernel with the fewest operations, and the indices, ascending, of the modes for which
+/// it is accurate.
 fn plan(poles: &[Pole], rate: f64, samples: usize, accuracy: f64) -> (Kernel, Vec<usize>) {
     let mut best = (Kernel::new(1, 1, 0.0), Vec::new());
     let mut least = samples * poles.len();

@@ -3,10 +3,10 @@
 use crate::DspError;
 use unripple_core::OutOfRange;
 
-/// Extrapolated thresholds are limited to between this and [`MOST`], in metres: far beyond any measurement, but neither
-/// zero nor infinite, so that levels above them stay finite.
+/// Lower limit of extrapolated thresholds, in metres, as [`MOST`] is the upper limit: both are far beyond
+/// any measurement, but keep levels above the threshold finite.
 const LEAST: f64 = 1e-20;
-/// The largest threshold, in metres; see [`LEAST`].
+/// Upper limit of extrapolated thresholds, in metres; see [`LEAST`].
 const MOST: f64 = 1e20;
 
 /// A vibrotactile detection threshold: the least peak displacement of a sine that is felt, in metres, against frequency.
@@ -60,9 +60,9 @@ impl Threshold {
     /// extrapolated: skin decouples from a surface that vibrates so fast, and short pulses are felt in other ways.
     pub const MEASURED_TO_HZ: f64 = 1e3;
 
-    /// Time over which touch adds up vibration near its most sensitive frequency, in seconds: thresholds of shorter vibration are higher,
-    /// by some 12 dB at 10 ms (Verrillo 1965, J. Acoust. Soc. Am. 37, 843–846). Those of the published curve are of vibration that lasts
-    /// for a second.
+    /// Time over which the sense of touch integrates vibration near its most sensitive frequency, in
+    /// seconds: thresholds of shorter vibration are higher, by some 12 dB at 10 ms (Verrillo 1965, J.
+    /// Acoust. Soc. Am. 37, 843–846). The published curve is for vibration that lasts a second.
     pub const INTEGRATION_S: f64 = 0.2;
 
     /// Change of the threshold above 40 Hz for each doubling of the contact area, in dB (Verrillo 1963), by spatial

@@ -36,9 +36,9 @@ impl std::fmt::Debug for Weighting {
 }
 
 impl Weighting {
-    /// A plan for signals of at most `samples` samples, at `rate` samples per second, that are zero before and after. The
-    /// transform pads them with at least `rest` zeros, up to the next size whose prime factors are 2, 3 and 5, to keep the two
-    /// ends of the circular transform apart.
+    /// A plan for signals of at most `samples` samples, at `rate` samples per second, that are zero before
+    /// and after. They are padded with at least `rest` zeros, up to the next size whose prime factors are
+    /// 2, 3 and 5, to keep the two ends of the circular transform apart.
     pub fn padded(threshold: &Threshold, rate: f64, samples: usize, rest: usize) -> Self {
         Self::of(threshold, rate, smooth_size(samples.saturating_add(rest).max(1)))
     }

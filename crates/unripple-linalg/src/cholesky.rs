@@ -6,7 +6,8 @@ use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Mat, MatMut, MatRef, Par, Side};
 
-/// Whether threads share the right-hand sides of a solve: not a single one, whose sums would be split among threads.
+/// Threads for a solve: several right-hand sides are shared among threads, a single one is solved on one
+/// thread, since its sums would be split among threads.
 pub(crate) fn shared<T>(right: &MatMut<'_, T>) -> Par {
     if right.ncols() > 1 { Par::rayon(0) } else { Par::Seq }
 }
@@ -50,7 +51,8 @@ fn solve_factored(lower: MatRef<'_, f64>, right: MatMut<'_, f64>, par: Par) {
     llt::solve::solve_in_place(lower, right, par, MemStack::new(&mut buffer));
 }
 
-/// A Cholesky factor A = L Lᵀ that is computed in place and used on one thread: for many small systems that are solved in parallel.
+/// The Cholesky factor L of a matrix A = L Lᵀ, computed in place and used on one thread: for many small
+/// systems that are solved in parallel.
 #[derive(Clone, Debug)]
 pub struct CholeskyInPlace(Mat<f64>);
 

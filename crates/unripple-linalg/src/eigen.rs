@@ -10,16 +10,17 @@ use faer::linalg::evd::{
 use faer::traits::ComplexField;
 use faer::{Auto, Mat, MatRef, Par, c64};
 
-/// Eigenvalues, ascending, and orthonormal eigenvectors, in the columns of an n x n matrix, of a symmetric or Hermitian n x n matrix, by
-/// divide and conquer. Only the lower triangle is read. `None` if the iteration does not converge, as when entries are not finite.
+/// Eigenvalues (ascending) and orthonormal eigenvectors (the columns of an n x n matrix) of a symmetric or
+/// Hermitian n x n matrix, by divide and conquer. Only the lower triangle is read. `None` if the iteration
+/// does not converge, as when entries are not finite.
 ///
 /// Eigenvectors may have errors of 1e-5 where eigenvalues differ by orders of magnitude; see [`exact_symmetric`].
 pub fn symmetric<T: Entry>(matrix: MatRef<'_, T>) -> Option<(Vec<f64>, Mat<T>)> {
     T::symmetric(matrix)
 }
 
-/// Eigenvalues and eigenvectors of a symmetric n x n matrix, in the form of [`symmetric`], by QR iteration. Errors are within
-/// machine precision times the largest eigenvalue.
+/// Eigenvalues and eigenvectors of a symmetric n x n matrix, returned as by [`symmetric`], by QR iteration.
+/// Errors are within machine precision times the largest eigenvalue.
 pub fn exact_symmetric(matrix: MatRef<'_, f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     let mut params: SelfAdjointEvdParams = Auto::<f64>::auto();
     params.recursion_threshold = usize::MAX;

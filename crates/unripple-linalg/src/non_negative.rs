@@ -2,14 +2,16 @@
 
 use crate::{Cholesky, Mat};
 
-/// Slopes below this share of the largest count as zero: above rounding. With twice this value, the descent stops a little
-/// earlier.
+/// Slopes below this share of the largest slope count as zero: it lies above rounding errors. With twice
+/// this value, the descent stops a little earlier.
 const LEVEL: f64 = 1e-9;
 
-/// The numbers λ ≥ 0 that minimise ½ λᵀQλ − bᵀλ for a positive definite Q, from a first guess of as many, of which
-/// negative and missing ones count as 0: an active set as in Lawson and Hanson (1974), Solving Least Squares Problems, chapter 23.
+/// The vector λ ≥ 0 that minimises ½ λᵀQλ − bᵀλ for a positive definite matrix Q (`form`) and b = `slope`,
+/// by the active-set method of Lawson and Hanson (1974), Solving Least Squares Problems, chapter 23. The
+/// search starts from `guess`, in which negative and missing elements count as 0.
 ///
-/// `form` gives the elements of Q. Where rounding would let the set go round in circles, what was reached is kept, which is λ ≥ 0 too.
+/// `form` returns the elements of Q by row and column. If rounding errors would make the active set repeat
+/// itself, the search stops and returns the λ ≥ 0 reached by then.
 ///
 /// ```
 /// use unripple_linalg::{mat, non_negative};
@@ -40,17 +42,18 @@ struct Descent<'a, F> {
     form: F,
     slope: &'a [f64],
     value: Vec<f64>,
-    /// Those that are not held at zero.
+    /// Indices of the elements that are not held at zero.
     free: Vec<usize>,
 }
 
 impl<F: Fn(usize, usize) -> f64> Descent<'_, F> {
-    /// How fast the objective falls if one of them rises.
+    /// Rate at which the objective falls if element `i`, now held at zero, rises.
     fn ascent(&self, i: usize) -> f64 {
         self.slope[i] - self.free.iter().map(|j| (self.form)(i, *j) * self.value[*j]).sum::<f64>()
     }
 
-    /// Goes to the optimum of the free ones; those that would fall below zero on the way are held there.
+    /// Moves to the optimum over the free elements; an element that would fall below zero on the way is
+    /// held at zero.
     fn settle(&mut self) {
         while !self.free.is_empty() {
             let free = &self.free;

@@ -11,8 +11,8 @@ pub trait Number: sealed::Products {}
 /// Number types whose matrices can also be decomposed (eigenvalues, LU): f64 and c64.
 pub trait Entry: Number + sealed::Decompositions {}
 
-/// Functions without type parameters of their own. faer's are generic, so that each crate that calls one compiles it again with all that
-/// it calls; calls of these functions compile nothing again.
+/// Functions without type parameters of their own. Those of faer are generic, so that each crate that calls
+/// one compiles it again, with all that it calls; a call of one of these functions compiles nothing again.
 pub(crate) mod sealed {
     use super::*;
 

@@ -6,8 +6,8 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::sparse::SparseColMatRef;
 use faer::{Accum, Col, ColRef, Conj, Mat, MatMut, MatRef, Par, c64};
 
-/// Computes `factor · left · right`, m x n from m x k and k x n, on as many threads as `par` says. The result replaces `out` or is
-/// added to it, as `accum` says.
+/// Computes `factor · left · right`, m x n from m x k and k x n, with the threads that `par` allows. The
+/// result replaces `out` or is added to it, as `accum` says.
 ///
 /// With several threads, the last bits of a result with a single row or column depend on their number; see [`product`].
 ///
@@ -24,8 +24,9 @@ pub fn multiply<T: Number>(
     T::multiply(out, accum, left, right, factor, par);
 }
 
-/// The product of two matrices, m x k and k x n, as m x n, to the last bit the same for any number of threads. Threads share it unless it
-/// has a single row or column, whose sums faer would split among threads.
+/// The product of two matrices, m x k and k x n, as an m x n matrix that is equal to the last bit for any
+/// number of threads. It is computed by several threads unless it has a single row or column, since faer
+/// would split the sums of such a product among threads.
 ///
 /// # Panics
 /// If the number of columns of `left` is not that of rows of `right`.
@@ -42,7 +43,8 @@ pub fn product<T: Number>(left: MatRef<'_, T>, right: MatRef<'_, T>) -> Mat<T> {
     out
 }
 
-/// Threads for a product with `rows` rows and `columns` columns: sums of a single row or column would be split among them.
+/// Threads for a product with `rows` rows and `columns` columns: one if it has a single row or column,
+/// since its sums would be split among threads.
 fn shared(rows: usize, columns: usize) -> Par {
     if rows.min(columns) > 1 { Par::rayon(0) } else { Par::Seq }
 }

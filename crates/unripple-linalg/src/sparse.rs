@@ -36,9 +36,10 @@ pub fn analyse(pattern: SymbolicSparseColMatRef<'_, usize>) -> Option<SymbolicCh
     factorize_symbolic_cholesky(pattern, Side::Lower, SymmetricOrdering::Amd, params).ok()
 }
 
-/// Numeric factorisation A = L D Lᵀ of a symmetric n x n matrix: the values of L and D, laid out as `structure` says. `lower` is the lower
-/// triangle of A, permuted to the order of `structure`. There is no pivoting, so that by Sylvester's law of inertia D has as many negative
-/// entries as A has negative eigenvalues.
+/// Numeric factorisation A = L D Lᵀ of a symmetric n x n matrix: returns the values of L and D in the
+/// layout of `structure`. `lower` is the lower triangle of A, permuted to the order of `structure`. There
+/// is no pivoting, so that by Sylvester's law of inertia D has as many negative entries as A has negative
+/// eigenvalues.
 ///
 /// # Errors
 /// [`Unfactored`] if a pivot is zero or memory does not suffice.

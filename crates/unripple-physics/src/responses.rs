@@ -14,17 +14,17 @@ use unripple_dsp::ModalSynth;
 use unripple_linalg::{Mat, MatRef};
 use unripple_plates::decay_rate;
 
-/// Number of points whose sampled responses one thread computes at once. With twice this value, there are half as many tasks to share
-/// among threads.
+/// Number of points for which one thread computes sampled responses at once. With twice this value, there
+/// are half as many tasks to share among threads.
 const POINTS: usize = 64;
 
 /// Error of sampled responses before rounding to single precision, relative to the sum of the magnitudes of
 /// modal weights. Ten times more would be larger than that rounding.
 const LIBRARY_ACCURACY: f64 = 1e-6;
 
-/// With loads, modes are kept one by one up to this multiple of the top frequency; those above are far from
-/// resonance within the band. With twice this value, eigenvalue problems have up to four times the coordinates, and take 64
-/// times as long.
+/// With loads, modes are kept one by one up to this multiple of the top frequency; modes above are far from
+/// resonance within the band. With twice this value, eigenvalue problems have up to four times the
+/// coordinates, and take 64 times as long.
 const DYNAMIC: f64 = 1.1;
 
 /// Options of the computation of responses from a surface.
@@ -33,11 +33,13 @@ pub struct ResponseOptions {
     /// Highest frequency of the modes included, in Hz; `None` for the top of the surface's band. The band and λ_min stored with the
     /// responses stay those of the surface.
     pub max_hz: Option<f64>,
-    /// Relative accuracy of the frequencies of the modes, and the largest error that is accepted where it is out of reach.
+    /// Relative accuracy required of the modes' frequencies, and the largest error that is accepted if this
+    /// accuracy cannot be reached.
     pub accuracy: Accuracy,
     /// Fingers that rest on the surface, as loads.
     pub contacts: Vec<Contact>,
-    /// With loads, modes up to this multiple of `max_hz` (at least 1.1) are computed for their compliance at the loads.
+    /// With loads on the sheet, modes up to this multiple of `max_hz` (at least 1.1) are computed, since
+    /// those above `max_hz` add compliance at the loads.
     pub reach: f64,
 }
 
@@ -47,8 +49,9 @@ impl Default for ResponseOptions {
     }
 }
 
-/// The impulse responses of a surface to its actuators in modal form: h(t) = Σ_m φ_m(x_A) φ_m(x) g_m(t), with mode shapes φ_m and
-/// the velocity g_m of a damped oscillator, per unit of each actuator's own drive (N, A or V).
+/// The impulse responses of a surface to its actuators in modal form: h(t) = Σ_m φ_m(x_A) φ_m(x) g_m(t),
+/// with the mode shapes φ_m at the actuator x_A and at the point x, and the velocity g_m of a damped
+/// oscillator, per unit of each actuator's drive (N, A or V).
 ///
 /// Modes below the band or above [`ResponseOptions::max_hz`] are left out. With loads on the sheet (coils, magnets, patches or
 /// fingers), the modes are those of the coupled system ([`Loaded`]).
@@ -79,8 +82,8 @@ pub fn responses(surface: &Surface, options: &ResponseOptions) -> Result<Respons
     asked.responses(surface, Arc::new(modes))
 }
 
-/// The modes of the sheet without loads that [`responses`] uses: up to [`ResponseOptions::max_hz`], or with loads up to
-/// [`ResponseOptions::reach`] times that.
+/// The modes of the sheet without loads from which [`responses`] computes: up to
+/// [`ResponseOptions::max_hz`], or, if there are loads, up to [`ResponseOptions::reach`] times that.
 ///
 /// # Errors
 /// Those of [`responses`].
@@ -88,7 +91,8 @@ pub fn response_modes(surface: &Surface, options: &ResponseOptions) -> Result<Mo
     Asked::of(surface, options)?.modes(surface)
 }
 
-/// The impulse responses that [`responses`] gives, from modes that [`response_modes`] has computed for the same surface and options.
+/// The impulse responses as by [`responses`], from modes that [`response_modes`] has computed for the same
+/// surface and options.
 ///
 /// # Errors
 /// Those of [`responses`].
@@ -100,9 +104,9 @@ pub fn responses_on(
     Asked::of(surface, options)?.responses(surface, modes)
 }
 
-/// The modes of the sheet with its actuators on it, up to `top_hz` (Hz), in order of ascending natural frequency: one pole for each, with
-/// the masses, springs, coils and electrical loads of the actuators. `None` if no actuator loads the sheet, whose modes are then those of
-/// [`Modes::solve`].
+/// The poles of the modes of the sheet with its actuators (their masses, springs, coils and electrical
+/// loads), up to `top_hz` (Hz), one per mode, in order of ascending natural frequency. `None` if no
+/// actuator loads the sheet, whose modes are then those of [`Modes::solve`].
 ///
 /// The frequency of a pole is |s|/2π of its complex frequency s, its decay rate -Re s. Frequencies of the sheet alone have the relative
 /// accuracy `accuracy`. The compliance of its modes above one and a half times `top_hz` enters as that of an infinite sheet.
@@ -149,9 +153,9 @@ pub fn loaded_modes(
     Ok(Some(asked.coupled(&below, modes)?.modes))
 }
 
-/// Highest frequency of the modes (in Hz) that a time-domain simulation ([`stepper`](crate::stepper)) needs to agree with
-/// [`responses`] up to `max_hz`. With loads on the sheet it is 1.5 times `max_hz`, since loads feel the compliance of modes above,
-/// but at most 0.45 of the sample rate (and at least `max_hz`).
+/// Frequency (Hz) up to which a time-domain simulation ([`stepper`](crate::stepper)) needs modes to agree
+/// with [`responses`] up to `max_hz`. With loads on the sheet it is 1.5 times `max_hz`, since higher modes
+/// add compliance at the loads, but at most 0.45 of the sample rate (and at least `max_hz`).
 ///
 /// # Errors
 /// Those of [`transducers`].
@@ -161,16 +165,17 @@ pub fn stepped_hz(surface: &Surface, max_hz: f64) -> Result<f64, PhysicsError> {
     Ok(sampled_hz(surface, reach * max_hz, max_hz))
 }
 
-/// Largest frequency of the modes that samples stand for, as a share of the sample rate: above half of it, samples take a mode for one as
-/// far below, and filters need some room. With twice this value, that would happen.
+/// Highest frequency of modes in sampled responses, as a share of the sample rate: modes above half the
+/// rate would alias, and filters need some room. With twice this value, modes would alias.
 const OF_RATE: f64 = 0.45;
 
-/// The frequency `hz` up to which modes are wanted, at most 0.45 of the surface's sample rate, but never below `least`; all in Hz.
+/// Limits `hz`, a highest frequency of modes, to 0.45 of the surface's sample rate, but never to less than
+/// `least`; all in Hz.
 pub fn sampled_hz(surface: &Surface, hz: f64, least: f64) -> f64 {
     hz.min(OF_RATE * surface.emission.rate).max(least)
 }
 
-/// A checked request for responses.
+/// A request for responses, after its options have been checked.
 struct Asked {
     transducers: Vec<Transducer>,
     fingers: Vec<Load>,
@@ -180,7 +185,7 @@ struct Asked {
 }
 
 impl Asked {
-    /// Checks surface and options, and makes the transducers and the loads of fingers.
+    /// Checks surface and options, and prepares the transducers and the loads of fingers.
     fn of(surface: &Surface, options: &ResponseOptions) -> Result<Self, PhysicsError> {
         let emission = &surface.emission;
         let [low, high] = emission.band;
@@ -246,7 +251,8 @@ impl Asked {
     }
 }
 
-/// Poles, input weights and shapes of the modes from `low` Hz on, without loads.
+/// Poles, input weights and shapes of the modes from the frequency `low` (Hz) on, for a sheet without
+/// loads.
 fn unloaded(
     modes: Arc<Modes>,
     transducers: &[Transducer],
@@ -305,7 +311,7 @@ pub fn sample(responses: &ModalResponses, points: &[Point], samples: usize) -> S
     }
 }
 
-/// Weights of each actuator at each point, (points · actuators) x modes.
+/// Weights of the modes for each pair of actuator and point, (points · actuators) x modes.
 fn weights(input: MatRef<f64>, readout: MatRef<f64>) -> Mat<f32> {
     let mut weights = Mat::zeros(readout.nrows() * input.nrows(), readout.ncols());
     for ((column, input), readout) in weights.col_iter_mut().zip(input.col_iter()).zip(readout.col_iter()) {
@@ -315,7 +321,7 @@ fn weights(input: MatRef<f64>, readout: MatRef<f64>) -> Mat<f32> {
     weights
 }
 
-/// The shapes of the modes from index `below` on.
+/// The shapes of the modes with index `below` and higher.
 #[derive(Debug)]
 struct Above {
     modes: Arc<Modes>,

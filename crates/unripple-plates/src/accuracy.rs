@@ -1,22 +1,25 @@
-//! How accurate modes are to be, and with how much error they are still of use.
+//! The requested accuracy of modes, and the largest error that is accepted if it cannot be reached.
 
-/// Largest error with which modes are given where no accuracy was asked for: a hundredth of a frequency. With twice this value, a mode
-/// may be said to be where its neighbour is.
+/// Largest relative error of frequencies that is accepted where no accuracy was requested. With twice this
+/// value, the error could exceed the distance between neighbouring modes.
 const USEFUL: f64 = 1e-2;
 
-/// The relative error of natural frequencies that is aimed at, and the largest that is accepted.
+/// Two limits for the relative error of natural frequencies: the error aimed at, and the largest error
+/// accepted if that cannot be reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
-    /// The relative error aimed at: the solution is refined until its bound is at most this, from 1e-12 to 0.1.
+    /// The relative error aimed at, from 1e-12 to 0.1: the solution is refined until the bound of its error
+    /// is at most this.
     pub aim: f64,
-    /// The largest relative error with which modes are still given, at least `aim`: where the aim is out of reach, the best that can be
-    /// reached is given if it is within this, with its error ([`Modes::error`](crate::Modes::error)), and refused if not.
+    /// The largest relative error that is accepted, at least `aim`. If `aim` cannot be reached, the best
+    /// solution is returned with its error ([`Modes::error`](crate::Modes::error)) if that error is at most
+    /// this, and refused otherwise.
     pub most: f64,
 }
 
 impl Accuracy {
-    /// An accuracy (a ratio) to aim at; where it is out of reach, the best that can be had, as long as frequencies are right to one part in a
-    /// hundred.
+    /// Aims at the relative error `aim`; if it cannot be reached, accepts the best solution whose
+    /// frequencies have an error of at most one per cent.
     ///
     /// ```
     /// # use unripple_plates::Accuracy;
@@ -27,14 +30,15 @@ impl Accuracy {
         Self { aim, most: USEFUL.max(aim) }
     }
 
-    /// The accuracy (a ratio) that was `asked` for, refused where it is out of reach; where none was, `default` or the best that can be had.
+    /// The accuracy (a relative error) in `asked`, refused if it cannot be reached; if `asked` is `None`,
+    /// aims at `default` and accepts the best solution as [`Accuracy::or_best`] does.
     pub fn of(asked: Option<f64>, default: f64) -> Self {
         asked.map_or(Self::or_best(default), Self::from)
     }
 }
 
 impl From<f64> for Accuracy {
-    /// An accuracy (a ratio) that is refused where it is out of reach.
+    /// An accuracy (a relative error) that is refused if it cannot be reached.
     fn from(accuracy: f64) -> Self {
         Self { aim: accuracy, most: accuracy }
     }

@@ -1,8 +1,8 @@
-//! Damping laws: decay rate of a mode by its frequency (quality factor Q = ω/2σ).
+//! Damping laws: decay rate of a mode as a function of its frequency (quality factor Q = ω/2σ).
 
 use unripple_core::Decay;
 
-/// Decay rate σ = 1/τ of the amplitude of a mode, in 1/s, by the damping of a sheet.
+/// Amplitude decay rate σ = 1/τ of a mode, in 1/s, due to the damping of the sheet.
 ///
 /// `omega` is the mode's angular frequency (rad/s), `bending_share` the share of bending in its elastic energy. With a loss
 /// factor η only bending dissipates: σ = η · share · ω/2. Tables of decay times are interpolated linearly in frequency.
@@ -14,7 +14,8 @@ pub fn decay_rate(decay: &Decay, omega: f64, bending_share: f64) -> f64 {
     }
 }
 
-/// The decay time (s) of a table at a frequency (Hz): linear between entries, constant beyond both ends; infinite for an empty table.
+/// The decay time (s) from a table at a frequency (Hz): linear between entries, constant below the first
+/// and above the last; infinite for an empty table.
 fn interpolate(table: &[(f64, f64)], hz: f64) -> f64 {
     let above = table.partition_point(|(f, _)| *f <= hz);
     match (above.checked_sub(1).and_then(|i| table.get(i)), table.get(above)) {

@@ -12,7 +12,8 @@ pub const AIR_DENSITY: f64 = 1.204;
 /// high.
 pub const AIR_CELERITY: f64 = 343.2;
 
-/// The wave properties of a sheet: mass, tension, bending stiffness, and the air beside it.
+/// The wave properties of a sheet: mass per area, tension, bending stiffness, and the number of sides in
+/// contact with air.
 ///
 /// A tensioned, isotropic Kirchhoff plate carries waves e^{j(ωt - kx)}. With air on n sides, a free wave of real wavenumber k
 /// satisfies (Fahy and Gardonio, *Sound and Structural Vibration*, 2007, section 4)
@@ -51,8 +52,8 @@ pub struct Medium {
 }
 
 impl Medium {
-    /// The wave properties of a sheet with its nominal thickness and tension, without profiles or orthotropy: mass per area,
-    /// tension, bending stiffness and sides in air.
+    /// The wave properties of a sheet with its nominal thickness and tension: mass per area, tension,
+    /// bending stiffness and sides in air. Profiles and orthotropy are ignored.
     pub fn of(sheet: &Sheet) -> Self {
         Self {
             areal_density: sheet.density * sheet.thickness,
@@ -62,13 +63,14 @@ impl Medium {
         }
     }
 
-    /// The same sheet with air on other sides.
+    /// The same sheet, with the sides in contact with air replaced.
     pub fn with_air(mut self, air: Air) -> Self {
         self.air_sides = air.sides();
         self
     }
 
-    /// Restoring force per area and displacement, R k² + D k⁴, of a wave of wavenumber `k` (rad/m), in N/m³.
+    /// Restoring force per area and per displacement, R k² + D k⁴, of a wave of wavenumber `k` (rad/m), in
+    /// N/m³.
     pub fn stiffness(&self, k: f64) -> f64 {
         k * k * (self.tension + self.bending_stiffness * k * k)
     }
@@ -88,8 +90,9 @@ impl Medium {
         })
     }
 
-    /// Decay rate σ of a wave of wavenumber `k` (rad/m) by radiation of sound into the air, in 1/s: 0 for waves slower than
-    /// sound, about n ρ_0 c_0/(2ρ_s √(1 - (k c_0/ω)²)) far above coincidence.
+    /// Decay rate σ, in 1/s, that radiation of sound into the air causes for a wave of wavenumber `k`
+    /// (rad/m): 0 for waves slower than sound, about n ρ_0 c_0/(2ρ_s √(1 - (k c_0/ω)²)) far above
+    /// coincidence.
     pub fn radiation(&self, k: f64) -> f64 {
         self.leaky(k).map_or(0.0, |gamma| self.leaky_square(k, gamma).sqrt().im.abs())
     }
@@ -113,8 +116,8 @@ impl Medium {
         if self.leaky(slow).is_none() { slow } else { root(0.0, slow, |k| self.omega(k) - omega) }
     }
 
-    /// Phase velocity c = ω/k, in m/s, at the wavenumber `k` (rad/m). At k = 0 it is the limit: √(R/ρ_s) in
-    /// vacuum, 0 in air.
+    /// Phase velocity c = ω/k, in m/s, at the wavenumber `k` (rad/m). For k = 0 it is the limit as k tends
+    /// to 0: √(R/ρ_s) in vacuum, 0 in air.
     pub fn phase_celerity(&self, k: f64) -> f64 {
         if k > 0.0 {
             self.omega(k) / k
@@ -144,26 +147,27 @@ impl Medium {
         (slope + layer * k) / (2.0 * omega * density + layer * omega / AIR_CELERITY.powi(2))
     }
 
-    /// Coincidence frequency f_c, above which waves are faster than sound in air and radiate, in Hz, for the sheet in vacuum:
-    /// k_c² = (ρ_s c_0² - R)/D, f_c = c_0 k_c / 2π. `None` if waves of all frequencies are faster, or none.
+    /// Coincidence frequency f_c in Hz, above which waves on the sheet in vacuum are faster than sound in
+    /// air and radiate: k_c² = (ρ_s c_0² - R)/D, f_c = c_0 k_c / 2π. `None` if waves of all frequencies are
+    /// faster than sound, or none are.
     pub fn coincidence_hz(&self) -> Option<f64> {
         self.coincidence_wavenumber().map(|k| AIR_CELERITY * k / TAU)
     }
 
-    /// Shortest wavelength 2π/k of a band that ends at `top_hz` (Hz), in metres.
+    /// Shortest wavelength 2π/k in a band that ends at `top_hz` (Hz), in metres.
     pub fn lambda_min(&self, top_hz: f64) -> f64 {
         2.0 * PI / self.wavenumber(TAU * top_hz)
     }
 
-    /// Share of bending in the elastic energy of a wave of wavenumber `k` (rad/m), D k²/(R + D k²), from 0 to 1: the share of
-    /// the material's loss factor that acts on the wave.
+    /// Share of bending in the elastic energy of a wave of wavenumber `k` (rad/m), D k²/(R + D k²), from 0
+    /// to 1; the wave's loss factor is the material's times this share.
     pub fn bending_share(&self, k: f64) -> f64 {
         let bending = self.bending_stiffness * k * k;
         if bending > 0.0 { bending / (self.tension + bending) } else { 0.0 }
     }
 
-    /// Moving mass per area, with the added mass of the air, in kg/m², at the wavenumber `k` (rad/m) and angular frequency
-    /// `omega` (rad/s); infinite if the wave is as fast as sound or faster.
+    /// Moving mass per area, including the added mass of the air, in kg/m², at the wavenumber `k` (rad/m)
+    /// and angular frequency `omega` (rad/s); infinite if the wave is as fast as sound or faster.
     pub fn effective_density(&self, k: f64, omega: f64) -> f64 {
         if self.air_sides == 0.0 {
             return self.areal_density;
@@ -176,7 +180,7 @@ impl Medium {
         (self.stiffness(k) / self.areal_density).sqrt()
     }
 
-    /// The root of D k⁴ + R k² = ρ_s ω² written so that neither R = 0 nor D = 0 loses digits.
+    /// The root k of D k⁴ + R k² = ρ_s ω², written so that no digits are lost for R = 0 or D = 0.
     fn wavenumber_in_vacuum(&self, omega: f64) -> f64 {
         if omega <= 0.0 || omega.is_nan() {
             return 0.0;
@@ -186,8 +190,9 @@ impl Medium {
         (2.0 * inertia / (self.tension + discriminant.sqrt())).sqrt()
     }
 
-    /// γ of the radiating wave of wavenumber `k`, in 1/m; `None` if waves are slower than sound, or if the air is too heavy for a
-    /// radiating wave.
+    /// The complex decay constant γ of the air's motion away from the sheet, in 1/m, for the radiating wave
+    /// of wavenumber `k`; `None` if waves are slower than sound, or if the air is too heavy for a radiating
+    /// wave.
     ///
     /// With a = ρ_s c_0², b = n ρ_0 c_0² and the stiffness S, the cubic is a γ³ + b γ² + (S - a k²) γ - b k² = 0; in
     /// y = γ/k, y³ + δy² + ey - δ = 0. Its positive root is found first and divided out.
@@ -212,7 +217,8 @@ impl Medium {
         (k * k - gamma * gamma) * AIR_CELERITY.powi(2)
     }
 
-    /// Derivative of |ω| of the radiating wave by k, by implicit differentiation of the cubic; `slope` is that of the stiffness.
+    /// Derivative of |ω| of the radiating wave with respect to k, by implicit differentiation of the cubic;
+    /// `slope` is the derivative of the stiffness.
     fn leaky_celerity(&self, k: f64, gamma: c64, slope: f64) -> f64 {
         let a = self.areal_density * AIR_CELERITY.powi(2);
         let b = self.air_sides * AIR_DENSITY * AIR_CELERITY.powi(2);
@@ -224,7 +230,7 @@ impl Medium {
         (square.conj() * rate).re / (2.0 * square.norm().powf(1.5))
     }
 
-    /// Wavenumber at which waves in vacuum are as fast as sound, in rad/m.
+    /// Wavenumber at which waves in vacuum are as fast as sound in air, in rad/m.
     fn coincidence_wavenumber(&self) -> Option<f64> {
         let excess = self.areal_density * AIR_CELERITY * AIR_CELERITY - self.tension;
         (excess > 0.0 && self.bending_stiffness > 0.0).then(|| (excess / self.bending_stiffness).sqrt())

@@ -6,7 +6,7 @@ use unripple_core::{OutOfRange, OutlineFault};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PhysicsError {
-    /// The models do not cover what was asked for.
+    /// The models do not cover what was requested.
     #[error("{what}: expected {expected}, found {found}")]
     Unsupported {
         /// Name of the item that is not supported.
@@ -24,31 +24,31 @@ pub enum PhysicsError {
         "modes up to {max_hz} Hz: expected at most {limit_gib:.1} GiB, found {needed_gib:.1} GiB for {unknowns} unknowns; about {nearest_hz:.0} Hz fits"
     )]
     TooLarge {
-        /// The top frequency asked for, in Hz.
+        /// The requested top frequency, in Hz.
         max_hz: f64,
         /// Number of unknowns of the problem.
         unknowns: usize,
-        /// The memory that it needs, in GiB.
+        /// The memory that the problem needs, in GiB.
         needed_gib: f64,
         /// The memory allowed, in GiB.
         limit_gib: f64,
-        /// About the highest top frequency that fits, in Hz.
+        /// Approximate highest top frequency for which the problem fits into the allowed memory, in Hz.
         nearest_hz: f64,
     },
-    /// The accuracy asked for was not reached.
+    /// The requested accuracy was not reached.
     #[error("modes up to {max_hz} Hz: expected an error of at most {expected:e}, found {found:e}")]
     NotConverged {
-        /// The top frequency asked for, in Hz.
+        /// The requested top frequency, in Hz.
         max_hz: f64,
-        /// The relative accuracy asked for.
+        /// The requested relative accuracy.
         expected: f64,
-        /// The estimated relative error.
+        /// The estimated relative error of the solution.
         found: f64,
     },
     /// The outline encloses no valid sheet, or cannot be meshed.
     #[error("outline: expected {expected}, found {found}")]
     Outline {
-        /// What a valid outline has.
+        /// What a valid outline would have instead, in words.
         expected: &'static str,
         /// The fault that was found, and where.
         found: String,
@@ -56,15 +56,15 @@ pub enum PhysicsError {
     /// The eigenvalue problem of a mesh could not be solved.
     #[error("modes up to {max_hz} Hz: expected every one of them, found {found}")]
     Solver {
-        /// The top frequency asked for, in Hz.
+        /// The requested top frequency, in Hz.
         max_hz: f64,
-        /// What went wrong.
+        /// The reason of the failure, in words.
         found: String,
     },
 }
 
 impl From<Vec<OutlineFault>> for PhysicsError {
-    /// The error for the first of the faults.
+    /// The error for the first of several faults of an outline.
     fn from(faults: Vec<OutlineFault>) -> Self {
         let (expected, found) =
             faults.first().map_or(("a sheet", String::new()), |fault| (fault.expected(), fault.found()));

@@ -24,7 +24,7 @@ pub(crate) struct Local {
 pub(crate) struct Fabric {
     /// Width and height of the bounding box that profiles span, in metres.
     extent: (f64, f64),
-    /// The sheet with all factors of its profiles 1.
+    /// The properties of the sheet where all factors of its profiles are 1.
     nominal: Local,
     /// The nominal sheet as a layer: elastic moduli in Pa, thickness in metres.
     layer: Layer,
@@ -134,15 +134,16 @@ impl Fabric {
         self.nominal.bending.iter().any(|d| *d != 0.0)
     }
 
-    /// The sheet at a point (m), with its discs: mass in kg/m², tension in N/m, bending stiffness in
-    /// N·m.
+    /// The properties of the sheet at a point (m), with its discs: mass in kg/m², tension in N/m, bending
+    /// stiffness in N·m.
     #[cfg(test)]
     pub(crate) fn at(&self, point: Point) -> Local {
         let on = self.discs.iter().filter(|disc| disc.at.distance(point) <= disc.radius);
         on.fold(self.bare(point), |sum, disc| sum.plus(&self.added_by(disc, point)))
     }
 
-    /// The bare sheet at a point (m): mass in kg/m², tension in N/m, bending stiffness in N·m.
+    /// The properties of the sheet without discs at a point (m): mass in kg/m², tension in N/m, bending
+    /// stiffness in N·m.
     pub(crate) fn bare(&self, point: Point) -> Local {
         let factor = |p: &Option<Profile>| p.as_ref().map_or(1.0, |p| p.at(point, self.extent));
         let thickness = factor(&self.thickness);
@@ -154,7 +155,8 @@ impl Fabric {
         }
     }
 
-    /// The additions of a disc to the bare sheet at a point (m) under it: mass in kg/m², bending stiffness in N·m.
+    /// What a disc adds to the properties of the sheet at a point (m) under it: mass in kg/m², bending
+    /// stiffness in N·m.
     pub(crate) fn added_by(&self, disc: &Disc, point: Point) -> Local {
         let factor = self.thickness.as_ref().map_or(1.0, |p| p.at(point, self.extent));
         let sheet = Layer { thickness: self.layer.thickness * factor, ..self.layer };
@@ -162,19 +164,19 @@ impl Fabric {
         Local { mass: disc.mass, tension: 0.0, bending: std::array::from_fn(|i| both[i] - alone[i]) }
     }
 
-    /// The discs that are glued to the sheet.
+    /// The discs glued to the sheet.
     pub(crate) fn discs(&self) -> &[Disc] {
         &self.discs
     }
 
-    /// The masses at points, in kg.
+    /// The point masses on the sheet: position (m) and mass in kg.
     pub(crate) fn masses(&self) -> &[(Point, f64)] {
         &self.masses
     }
 }
 
 impl Local {
-    /// The sum of two.
+    /// The sum of two sets of properties.
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             mass: self.mass + other.mass,
@@ -243,7 +245,7 @@ fn laminate(sheet: &Layer, disc: &Layer) -> [f64; 6] {
     std::array::from_fn(|n| whole[n] - coupled(places[n].0, places[n].1))
 }
 
-/// The symmetric matrix of entries 11, 12, 16, 22, 26, 66.
+/// The symmetric matrix with the entries 11, 12, 16, 22, 26, 66 in Voigt notation.
 fn square([a, b, c, d, e, f]: [f64; 6]) -> [[f64; 3]; 3] {
     [[a, b, c], [b, d, e], [c, e, f]]
 }

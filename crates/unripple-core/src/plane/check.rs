@@ -1,4 +1,5 @@
-//! The check that rims enclose a sheet: closed, without crossings, anticlockwise, holes inside and apart.
+//! The check that the rims (boundary curves) of an outline enclose a sheet: closed, without crossings,
+//! anticlockwise, holes inside and apart.
 
 use super::faults::OutlineFault;
 use super::meeting::{Endless, meetings};
@@ -9,12 +10,13 @@ use std::ops::Range;
 /// Largest gap between the end of a side and the start of the next, as a share of the extent: above the
 /// rounding of coordinates that were computed. With twice this value, gaps twice as wide would count as closed.
 const OPEN: f64 = 1e-9;
-/// Least area of a sheet, as a share of the extent squared: an outline with less encloses no area but for rounding.
+/// Least area of a sheet, relative to the extent squared: a smaller area is only rounding error of
+/// coordinates on one line.
 const AREA: f64 = 1e-9;
 
 impl Outline {
-    /// All faults for which the outline encloses no valid sheet; empty for a valid one. Both the reader of surface files and the
-    /// mesh generator rely on this check.
+    /// All reasons for which the outline encloses no valid sheet; empty for a valid outline. Both the
+    /// reader of surface files and the mesh generator rely on this check.
     ///
     /// ```
     /// use unripple_core::{Outline, Point, Shape};
@@ -29,7 +31,7 @@ impl Outline {
 }
 
 impl Rims {
-    /// The rims of an outline, after a check that they enclose a sheet.
+    /// The rims (boundary curves) of an outline, after a check that they enclose a sheet.
     ///
     /// # Errors
     /// All faults found. If sides are invalid or rims are not closed, only these faults are listed.
@@ -114,7 +116,7 @@ fn open(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-/// The fault of a rim's area or direction, or of the place of a hole, if there is one.
+/// Checks the area and direction of a rim, and the position of a hole; returns the first fault found.
 fn course(rims: &Rims, rim: usize, apart: &[bool]) -> Option<OutlineFault> {
     let at = rims.sides[rims.loops[rim].start].0.at(0.0);
     // The rims of holes run clockwise.

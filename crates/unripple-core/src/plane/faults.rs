@@ -2,8 +2,9 @@
 
 use crate::Point;
 
-/// A fault for which an outline encloses no valid sheet. Rim 0 is the outer one, rim i + 1 that of hole i. Sides are numbered
-/// within their rim, in the order of [`Outline::loops`](crate::Outline::loops).
+/// A reason for which an outline encloses no valid sheet. Rims are its boundary curves: rim 0 is the outer
+/// one, rim i + 1 that of hole i. Sides are numbered within their rim, in the order of
+/// [`Outline::loops`](crate::Outline::loops).
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("expected {}, found {}", self.expected(), self.found())]
 pub enum OutlineFault {
@@ -28,7 +29,7 @@ pub enum OutlineFault {
         /// Where the side is, in metres.
         at: Point,
     },
-    /// A side does not start where the previous one ends.
+    /// A side does not start where the previous side ends.
     Open {
         /// Index of the rim.
         rim: usize,
@@ -39,25 +40,25 @@ pub enum OutlineFault {
         /// Where this side starts, in metres.
         start: Point,
     },
-    /// Sides touch, cross or run back over each other.
+    /// Two sides touch, cross or run back over each other.
     Meeting {
-        /// Indices of both rims, the smaller first.
+        /// Indices of the rims of the two sides, the smaller first.
         rims: [usize; 2],
-        /// Indices of both sides, each within its rim.
+        /// Indices of the two sides, each within its rim.
         sides: [usize; 2],
-        /// Where they meet, in metres.
+        /// Where the two sides meet, in metres.
         at: Point,
     },
     /// A rim encloses no area.
     Flat {
         /// Index of the rim.
         rim: usize,
-        /// The area that it encloses, in m².
+        /// The area that the rim encloses, in m².
         area: f64,
         /// Where the rim starts, in metres.
         at: Point,
     },
-    /// The sides of a rim are listed clockwise.
+    /// The sides of a rim are listed clockwise instead of anticlockwise.
     Clockwise {
         /// Index of the rim.
         rim: usize,
@@ -71,21 +72,22 @@ pub enum OutlineFault {
         /// Where the rim of the hole starts, in metres.
         at: Point,
     },
-    /// A hole lies within another.
+    /// A hole lies within another hole.
     Nested {
-        /// Index of the inner rim.
+        /// Index of the rim of the inner hole.
         rim: usize,
-        /// Index of the rim around it.
+        /// Index of the rim of the hole around it.
         within: usize,
-        /// Where the inner rim starts, in metres.
+        /// Where the rim of the inner hole starts, in metres.
         at: Point,
     },
-    /// Sides lie along each other in too many places to compare.
+    /// Sides lie along each other in so many places that the check was given up.
     TooMany,
 }
 
 impl OutlineFault {
-    /// What a valid outline has, in words for people: the part of the message after "expected".
+    /// What a valid outline would have instead, in words for people: the part of the error message after
+    /// "expected".
     pub fn expected(&self) -> &'static str {
         match self {
             Self::Empty { .. } => "rims of at least one side",
@@ -101,7 +103,7 @@ impl OutlineFault {
         }
     }
 
-    /// What was found and where, in words for people: the part of the message after "found".
+    /// What was found and where, in words for people: the part of the error message after "found".
     pub fn found(&self) -> String {
         match self {
             Self::Empty { rim } => format!("{} without sides", name(*rim)),
@@ -124,7 +126,8 @@ impl OutlineFault {
         }
     }
 
-    /// Index of the rim at fault; of two rims that meet, the later one. `None` for [`OutlineFault::TooMany`], which concerns all.
+    /// Index of the rim at fault; if two rims meet, the larger of their indices. `None` for
+    /// [`OutlineFault::TooMany`], which concerns all rims.
     pub fn rim(&self) -> Option<usize> {
         match *self {
             Self::Empty { rim }

@@ -1,19 +1,24 @@
-//! Rims of many supported straight sides, which are most often a curve that was flattened.
+//! Counts the corners of simply supported polygons with many straight sides, which most often stand for a
+//! curve.
 
 use super::rims::Rims;
 use crate::{Edge, Outline};
 use std::f64::consts::PI;
 
-/// Corners this near to straight, in radians (20°), are taken for those of a flattened curve. Doubled, those of an octagon are.
+/// Largest turn at a corner, in radians (20°), that is taken for a corner of a curve drawn as a polygon.
+/// With twice this value, an octagon would be taken for a curve.
 const NEARLY: f64 = 0.35;
-/// Corners nearer to straight than this, in radians, are rounding of coordinates on one line.
+/// Corners that turn by less than this angle, in radians, are rounding errors of coordinates on one
+/// straight line.
 const STRAIGHT: f64 = 1e-4;
-/// Fewest such corners of one rim that are taken for a flattened curve: a polygon that is meant has fewer.
+/// Least number of such corners on one boundary curve for which the curve counts as drawn as a polygon: a
+/// true polygon has fewer.
 const MANY: usize = 8;
 
 impl Outline {
-    /// The number of corners between supported straight sides that are within 20° of straight, on rims that have at least eight of
-    /// them; 0 for an invalid outline.
+    /// The number of corners that seem to come from a curve drawn as a polygon: corners between simply
+    /// supported straight sides that turn by less than 20°, on boundary curves with at least eight of them.
+    /// 0 for an invalid outline.
     ///
     /// A plate supported along a polygon stays stiffer than one supported along the curve that the polygon approaches, however many
     /// sides it has (Babuška and Pitkäranta, *SIAM J. Math. Anal.* 21, 551, 1990).

@@ -1,5 +1,6 @@
-//! Places where rims cross or touch each other or themselves. Pieces of curves are compared by their chords and halved where
-//! the chords come near each other, so that the result holds for the curves themselves, not for polygons through them.
+//! Places where rims (boundary curves) cross or touch each other or themselves. Pieces of curves are
+//! compared by their chords and halved where the chords come near each other, so that the result holds for
+//! the curves themselves, not for polygons through them.
 
 use super::piece::Piece;
 use super::rims::{Rims, tangent};
@@ -9,8 +10,8 @@ use crate::{Point, Side};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Pieces of one rim that are nearer than this share of the extent count as touching: a mesh of anything closer has more
-/// triangles than any memory holds.
+/// Pieces of one rim that are nearer to each other than this distance, relative to the extent, count as
+/// touching: a mesh of anything closer has more triangles than any memory holds.
 const TOUCH: f64 = 1e-7;
 /// Least distance between different rims, in metres. With twice this value, strips of sheet up to 2 µm wide would be
 /// refused as well.
@@ -32,17 +33,20 @@ const MOST_HALVINGS: u64 = 4_000_000;
 /// Largest number of pairs of rims that meet before the search ends, for the same bound on time.
 const MOST_MEETINGS: usize = 10_000;
 
-/// The result of [`within`]: two sides of a closed curve that cross or touch, or a search that was given up.
+/// The result of [`within`]: two sides of a closed curve that cross or touch, or a search that stopped at
+/// its limit of work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Met {
-    /// Two sides, by their indices in the list of sides, the smaller first, meet at this point (m).
+    /// Two sides meet: their indices in the list of sides, the smaller first, and a point (m) where they
+    /// meet.
     Sides([usize; 2], Point),
-    /// The search was given up: sides lie along each other in too many places.
+    /// The search stopped at its limit of work: sides lie along each other in too many places.
     TooMany,
 }
 
-/// Checks a closed curve, given by its sides in order, for sides that cross or touch; `None` if there are none. Consecutive sides
-/// that fold back on each other are reported before all others; else the pair of smallest indices is reported.
+/// Checks a closed curve, given by its sides in order, for sides that cross or touch; `None` if there are
+/// none. Consecutive sides that fold back on each other are reported before all others; otherwise the pair
+/// with the smallest indices is reported.
 pub fn within(sides: &[Side]) -> Option<Met> {
     let all = sides.iter().map(|side| (*side, crate::Edge::Free)).collect();
     let rims = Rims::of(all, std::iter::once(0..sides.len()).collect());
@@ -58,7 +62,7 @@ pub(super) type Meetings = BTreeMap<[usize; 2], ([usize; 2], Point)>;
 /// The search exceeded one of the limits above.
 pub(super) struct Endless;
 
-/// The work that one search may still take, in pairs compared and pieces halved.
+/// The work that one search may still do: numbers of pairs of pieces to compare and of pieces to halve.
 struct Work {
     pairs: u64,
     halvings: u64,
@@ -75,7 +79,7 @@ impl Work {
         self.halvings = self.halvings.saturating_sub(1);
     }
 
-    /// Whether the work allowed is used up.
+    /// Whether the allowed work is used up.
     fn is_done(&self) -> bool {
         self.pairs == 0 || self.halvings == 0
     }

@@ -6,18 +6,18 @@ use crate::side::gauss;
 use crate::{Point, Side};
 use std::f64::consts::PI;
 
-/// Greatest turn of the tangent along a piece, in radians: a circle has 63 pieces. With twice this value, there would be half as
-/// many, each four times as far from its chord, and the search for meetings would halve them again where they
-/// come near each other.
+/// Greatest turn of the tangent along a piece, in radians: a circle has 63 pieces. With twice this value,
+/// there would be half as many, each with four times the distance between curve and chord, and the search
+/// for crossings would halve them again where they come near each other.
 const TURN: f64 = 0.1;
 /// Number of halvings after which a cubic is cut no further, since it must have a cusp there. One more halving would
 /// double only the pieces at a cusp.
 const DEEPEST: u32 = 24;
 
-/// A short piece of a side, which lies within `sagitta` of its chord.
+/// A short piece of a side, which lies within the distance `sagitta` of its chord.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
-    /// Index of the side that it is a piece of, counted over all rims.
+    /// Index of the side from which the piece was cut, counted over all rims.
     pub side: usize,
     /// Curve parameters of the side at the start and the end of the piece, each 0 to 1.
     pub span: [f64; 2],

@@ -1,4 +1,4 @@
-//! The boundary curves of an outline cut into short pieces, and distances across the sheet.
+//! The rims (boundary curves) of an outline cut into short pieces, and distances across the sheet.
 
 use super::piece::Piece;
 use super::tree::{Bounds, Node, Tree};
@@ -26,7 +26,7 @@ pub struct Rims {
     firsts: Vec<usize>,
     /// Bounding boxes of the pieces, for searches.
     pub tree: Tree,
-    /// The longer side of the bounding box of all rims, in metres.
+    /// The longer side of the bounding box around all rims, in metres.
     pub extent: f64,
 }
 
@@ -57,13 +57,13 @@ impl Rims {
         self.rims.get(side).copied().unwrap_or(0)
     }
 
-    /// Index of the next side on the same rim; the first follows the last.
+    /// Index of the next side on the same rim; after the last side comes the first.
     pub fn next(&self, side: usize) -> usize {
         let rim = &self.loops[self.rim_of(side)];
         if side + 1 < rim.end { side + 1 } else { rim.start }
     }
 
-    /// Index of the previous side on the same rim; the last precedes the first.
+    /// Index of the previous side on the same rim; before the first side comes the last.
     pub fn previous(&self, side: usize) -> usize {
         let rim = &self.loops[self.rim_of(side)];
         if side > rim.start { side - 1 } else { rim.end - 1 }
@@ -113,9 +113,9 @@ impl Rims {
         PI - angle(before, tangent(&self.sides[side].0, 0.0))
     }
 
-    /// Width of the sheet, in metres, from the point at parameter `t` of a side to the opposite boundary along a unit vector
-    /// `direction`; infinite if it exceeds `most` (m). The sides that meet this side in a sharp corner do not count as opposite
-    /// where they are as near as the angle of the corner implies.
+    /// Width of the sheet, in metres, from the point at parameter `t` of a side to the opposite boundary
+    /// along a unit vector `direction`; infinite if it exceeds `most` (m). Near a sharp corner, the other
+    /// side of the corner does not count as opposite.
     pub fn gap(&self, side: usize, t: f64, direction: Point, most: f64) -> f64 {
         let from = self.sides[side].0.at(t);
         let beam = Bounds::around(&[from, along(from, direction, most)], 0.0);
@@ -139,7 +139,8 @@ impl Rims {
         if found <= most { found } else { f64::INFINITY }
     }
 
-    /// Whether a piece is as near as follows from the angle of the corner between its side and the given one.
+    /// Whether the distance of a piece is explained by a sharp corner between the side of the piece and the
+    /// given side.
     fn expected(&self, side: usize, from: Point, piece: &Piece, far: f64) -> bool {
         let narrow = |corner: usize| {
             let opening = self.angles[corner];
@@ -152,8 +153,8 @@ impl Rims {
     }
 }
 
-/// A tangent vector of a side at parameter `t` (0 to 1), in metres, of any length; not zero even where the derivative
-/// vanishes.
+/// A vector along the tangent of a side at parameter `t` (0 to 1). Its length (m) is arbitrary, but not
+/// zero even where the derivative vanishes.
 pub fn tangent(side: &Side, t: f64) -> Point {
     let d = side.derivative(t);
     if norm(d) > 1e-9 * side.length() {

@@ -81,7 +81,7 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// A tree of items, each a box and a weight; searches give the indices of items in this list.
+    /// A tree of items, each a box and a weight; searches return the indices of items in this list.
     pub fn new(items: &[(Bounds, f64)]) -> Self {
         let mut tree = Self { nodes: Vec::new(), order: (0..items.len()).collect() };
         if !items.is_empty() {

@@ -32,7 +32,7 @@ pub fn norm(a: Point) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// A vector rotated anticlockwise by an angle (rad).
+/// A vector rotated anticlockwise by `angle`, in radians.
 pub fn turned(a: Point, angle: f64) -> Point {
     let (s, c) = angle.sin_cos();
     Point::new(a.x * c - a.y * s, a.x * s + a.y * c)

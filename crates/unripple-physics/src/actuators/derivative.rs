@@ -3,11 +3,12 @@
 use unripple_dsp::kaiser;
 use unripple_linalg::{Cholesky, Lu, Mat};
 
-/// Number of samples on each side that a derivative is computed from; with [`BETA`] its error is 1e-4 up to 0.42 of the
-/// rate. With twice this value, this holds up to about 0.46, and twice as many samples at each end need taps of their own.
+/// Number of samples on each side from which a derivative is computed; with [`BETA`] its error is 1e-4 up
+/// to 0.42 of the sample rate. With twice this value, this holds up to about 0.46, and twice as many
+/// samples at each end need taps of their own.
 const HALF: usize = 32;
-/// Shape of the Kaiser window over these samples: side lobes below -110 dB. With twice this value, the band of that accuracy
-/// shrinks.
+/// Shape of the Kaiser window over these samples: side lobes below -110 dB. With twice this value, the band
+/// in which the error is 1e-4 shrinks.
 const BETA: f64 = 12.0;
 
 /// Weight of the power of the taps (their response outside the band) against the error inside: it keeps taps near an end
@@ -22,9 +23,11 @@ const OUTSIDE: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub(super) struct Derivative {
     rate: f64,
-    /// Taps away from the ends, for the samples after the present one; those before have the opposite sign.
+    /// Taps away from the ends, for the samples after the current one; the taps for the samples before it
+    /// have the opposite sign.
     inner: Vec<f64>,
-    /// Taps near an end, for each number of samples before the present one, from the first sample on.
+    /// Taps near an end, for each number of samples before the current one; each list begins at the first
+    /// sample of the signal.
     edge: Vec<Vec<f64>>,
 }
 
@@ -45,8 +48,8 @@ impl Derivative {
         }
     }
 
-    /// The derivative of a signal at each sample, in its unit per second; a signal shorter than the taps counts as zero
-    /// beyond its ends.
+    /// The derivative of a signal at each sample, in the signal's unit per second; a signal shorter than
+    /// the taps is taken as zero beyond its ends.
     pub fn of(&self, signal: &[f64]) -> Vec<f64> {
         let last = signal.len().saturating_sub(1);
         let at = |i: Option<usize>| i.and_then(|i| signal.get(i)).copied().unwrap_or(0.0);
@@ -67,7 +70,8 @@ impl Derivative {
     }
 }
 
-/// Taps on `before` samples before and `after` samples after the present one, for the derivative there per sample interval.
+/// Taps for the derivative (per sample interval) at a sample, from `before` samples before it, the sample
+/// and `after` samples after it.
 ///
 /// They minimise ∫ |Σ t_j e^{iωj} - iω|² dω from 0 to `top`, so that Σ_k ∫ cos((j - k)ω) dω t_k = ∫ ω sin(jω) dω.
 fn taps(before: usize, after: usize, top: f64) -> Vec<f64> {

@@ -23,7 +23,7 @@ use place::place;
 use unripple_core::{Actuator, ActuatorKind, Outline, Surface, require};
 
 impl Transducer {
-    /// The transducer of an actuator on a sheet of some outline.
+    /// The transducer that models an actuator on a sheet with the given outline.
     ///
     /// # Errors
     /// [`PhysicsError::Unsupported`] for a place outside the outline or a patch partly beyond the rim,
@@ -50,7 +50,7 @@ impl Transducer {
     }
 }
 
-/// The transducers of a surface's actuators, in channel order.
+/// The transducers that model a surface's actuators, in channel order.
 ///
 /// # Errors
 /// Those of [`Transducer::of`], with the actuator's index.

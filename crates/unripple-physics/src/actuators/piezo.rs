@@ -49,7 +49,7 @@ pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Result<Trans
     Ok(Transducer { footprint, gain: moment, entry: Entry::Force, load, unit: "V" })
 }
 
-/// A patch and the distance (m) of its centre from the rim, for messages.
+/// Text for messages: the size of a patch and the distance (m) of its centre from the rim.
 fn told(patch: Patch, to_rim: f64) -> String {
     let to_rim = to_rim * 1e3;
     match patch {

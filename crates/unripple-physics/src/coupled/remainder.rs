@@ -1,18 +1,19 @@
-//! The part of a sheet's static response to a load that has wavenumbers above those of the modes computed, from an infinite sheet.
+//! The part of a sheet's static response to a load at wavenumbers above those of the computed modes, taken
+//! from an infinite sheet.
 
 use crate::Medium;
 use std::f64::consts::TAU;
 use unripple_dsp::bessel_j;
 use unripple_plates::gauss;
 
-/// Largest distance from a load at which its deflection is tabulated, in 1/K; farther away it counts as zero. With twice this value,
-/// tables are twice as long for values that are smaller still.
+/// Largest distance from a load at which its deflection is tabulated, in 1/K; beyond, the deflection is
+/// taken as zero. With twice this value, tables are twice as long for values that are smaller still.
 const REACH: f64 = 25.0;
-/// Step of the table, in 1/K: 126 steps for each wavelength, with cubic interpolation between them. With twice this value, the
-/// interpolation errs 16 times as much.
+/// Step of the table, in 1/K: 126 steps for each wavelength, with cubic interpolation between them. With
+/// twice this value, the interpolation error is 16 times as large.
 const STEP: f64 = 0.05;
 
-/// The part of an infinite sheet's static response to loads that has wavenumbers above K.
+/// The part of an infinite sheet's static response to loads at wavenumbers above K.
 #[derive(Debug)]
 pub(super) struct Remainder {
     /// Mass, tension and stiffness of the infinite sheet.
@@ -21,11 +22,11 @@ pub(super) struct Remainder {
     pub above: f64,
     /// Least radius of a contact (m): the sheet's thickness, below which plate theory does not hold.
     pub finest: f64,
-    /// Wavenumbers (rad/m) and weights of an integral from K on.
+    /// Nodes (wavenumbers above K, in rad/m) and weights for the numerical integral.
     nodes: Vec<(f64, f64)>,
 }
 
-/// Deflection per force against the distance from a contact of uniform pressure, in m/N.
+/// Table of deflection per force (m/N) against distance from a contact of uniform pressure.
 #[derive(Debug)]
 pub(super) struct Profile {
     step: f64,
@@ -33,8 +34,8 @@ pub(super) struct Profile {
 }
 
 impl Remainder {
-    /// The remainder of a sheet above the wavenumber `above` (rad/m), with contacts no smaller than `finest`
-    /// (m).
+    /// Prepares the integral over wavenumbers above `above` (rad/m), for contacts with a radius of at least
+    /// `finest` (m).
     pub fn new(medium: Medium, above: f64, finest: f64) -> Self {
         let bent = if medium.bending_stiffness > 0.0 {
             (medium.tension / medium.bending_stiffness).sqrt()
@@ -54,8 +55,9 @@ impl Remainder {
         Self { medium, above, finest, nodes }
     }
 
-    /// Σ φ φ'/ω^{2·power} over the modes above K for two uniform contacts of some radii (m) that are a distance (m) apart:
-    /// (1/2π) ∫_K^∞ J_0(k·distance) B(k·radius) B(k·radius') / (ρ_s ω^{2·power}) k dk, with B(x) = 2J_1(x)/x and ρ_s ω² = Rk² + Dk⁴.
+    /// The sum Σ φ φ'/ω^{2·power} over the modes above K for two uniform contacts with given radii (m) at a
+    /// given distance (m): (1/2π) ∫_K^∞ J_0(k·distance) B(k·radius) B(k·radius') / (ρ_s ω^{2·power}) k dk,
+    /// with B(x) = 2J_1(x)/x and ρ_s ω² = Rk² + Dk⁴.
     pub fn sum(&self, distance: f64, radii: [f64; 2], power: i32) -> f64 {
         let density = self.medium.areal_density;
         let term = |(k, weight): &(f64, f64)| {
@@ -66,7 +68,8 @@ impl Remainder {
         self.nodes.iter().map(term).sum::<f64>() / TAU
     }
 
-    /// Table of the deflection by a uniform contact of some radius (m), read at points.
+    /// Table of the deflection per force (m/N) caused by a uniform contact with a given radius (m), against
+    /// distance.
     pub fn profile(&self, radius: f64) -> Profile {
         let weights: Vec<(f64, f64)> = self
             .nodes

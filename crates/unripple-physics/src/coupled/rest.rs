@@ -6,8 +6,8 @@ use std::sync::Arc;
 use unripple_core::{Point, Pole, Shapes};
 use unripple_linalg::{Mat, product, symmetric};
 
-/// A combination of deflections whose inertia is less than this share of the largest is linearly dependent on the others.
-/// Larger, contacts that lie close to each other would count as one.
+/// A combination of deflections whose inertia is less than this share of the largest counts as linearly
+/// dependent on the others. Larger, contacts that lie close to each other would count as one.
 const ALIKE: f64 = 1e-9;
 
 /// Modes, followed by a few added modes that stand for the residual flexibility of all higher modes at the loads.
@@ -21,13 +21,14 @@ const ALIKE: f64 = 1e-9;
 pub(super) struct WithRest {
     base: Arc<dyn Shapes>,
     places: Vec<(Point, Arc<Profile>)>,
-    /// Combinations of the deflections, loads x added modes.
+    /// Combinations of the deflections under the loads, loads x added modes.
     mixing: Mat<f64>,
 }
 
 impl WithRest {
-    /// Appends the poles of the added modes to `poles` (those of `base`), and returns the shapes of all. `decay` gives the decay
-    /// rate (1/s) of an added mode from its frequency (rad/s) and wavenumber (rad/m).
+    /// Appends the poles of the added modes to `poles` (those of `base`), and returns the shapes of all
+    /// modes. `decay` gives the decay rate (1/s) of an added mode from its frequency (rad/s) and wavenumber
+    /// (rad/m).
     pub fn add(
         base: Arc<dyn Shapes>,
         poles: &mut Vec<Pole>,
@@ -97,7 +98,8 @@ impl Shapes for WithRest {
     }
 }
 
-/// Centre of a contact, and the radius of the uniform disc of the same mean square distance from it, at least `finest`.
+/// Centre of a contact, and the radius of the uniform disc with the same mean square distance from the
+/// centre, at least `finest`.
 fn contact(footprint: &Footprint, finest: f64) -> (Point, f64) {
     let sum = |f: &dyn Fn(Point) -> f64| footprint.points.iter().map(|(p, w)| w * f(*p)).sum::<f64>();
     let centre = Point::new(sum(&|p| p.x), sum(&|p| p.y));
@@ -105,7 +107,8 @@ fn contact(footprint: &Footprint, finest: f64) -> (Point, f64) {
     (centre, (2.0 * spread.max(0.0)).sqrt().max(finest))
 }
 
-/// Squared frequencies and mass-normalised combinations of a stiffness and a mass matrix.
+/// Squared frequencies and mass-normalised modes of a generalised eigenvalue problem with a stiffness and a
+/// mass matrix.
 fn pencil(stiffness: &Mat<f64>, mass: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     let (values, vectors) = symmetric(mass.as_ref())?;
     let most = values.iter().copied().fold(0.0, f64::max);

@@ -8,8 +8,8 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// Adds the part of a vector that is orthogonal to the others, normalised, unless it is less than the share `least` of the
-    /// vector; returns whether it was added.
+    /// Adds the part of a vector that is orthogonal to those in the set, normalised to length 1, unless
+    /// that part is at most the share `least` of the vector; returns whether it was added.
     ///
     /// Gram-Schmidt orthogonalisation, twice, which is enough (Giraud et al., *Numer. Math.* 101, 87, 2005).
     pub fn add(&mut self, mut vector: Vec<f64>, least: f64) -> bool {

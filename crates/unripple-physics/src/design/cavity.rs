@@ -1,4 +1,5 @@
-//! Statistical contrast of a reverberant surface: modal overlap, decay, window.
+//! Statistical contrast (velocity at a focus over the rms velocity elsewhere) of a reverberant surface:
+//! modal overlap, decay, window.
 
 use super::closed::exposure;
 use crate::Medium;
@@ -40,19 +41,19 @@ pub struct Cavity {
     bins: Vec<Bin>,
     /// Relative variance s of the squared mode shapes, ⟨φ⁴⟩/⟨φ²⟩² - 1.
     scatter: f64,
-    /// Share e of the energy of a focus outside the focal disc.
+    /// Share e of a focus's energy that lies outside the focal disc.
     exposure: f64,
     /// Width of the band, in Hz.
     bandwidth: f64,
 }
 
-/// An interval of the band.
+/// An interval of the frequency band.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Bin {
     hz: f64,
-    /// Number of modes in it.
+    /// Number of modes in the interval.
     modes: f64,
-    /// Number of modes in it as counted at a point away from the rim.
+    /// Number of modes in the interval as counted at a point away from the rim.
     local: f64,
     /// Modes per hertz.
     density: f64,
@@ -68,12 +69,13 @@ impl Bin {
         ring(2.0 * self.sigma, window) / 2.0
     }
 
-    /// ∫_0^T e^{-4t/τ}/8 dt: the mean square leakage into a mode for a density of one neighbour per hertz.
+    /// ∫_0^T e^{-4t/τ}/8 dt: the mean square leakage into a mode if there is one neighbouring mode per
+    /// hertz.
     fn leaked(&self, window: f64) -> f64 {
         ring(4.0 * self.sigma, window) / 8.0
     }
 
-    /// Share ρ of a mode's beats with its neighbours before the first reflections return.
+    /// Share ρ of a mode's beats with its neighbours that falls before the return of the first reflections.
     fn regular(&self, window: f64) -> f64 {
         let left = self.gathered((window - self.trip).max(0.0)) / self.gathered(window);
         1.0 - (-2.0 * self.sigma * self.trip).exp() * left * left
@@ -81,21 +83,23 @@ impl Bin {
 }
 
 impl Cavity {
-    /// The statistics of a surface in a band that ends at `top_hz` (Hz), from Weyl's law, without its term of the rim where that leaves no
-    /// mode.
+    /// The statistics of a surface in a band that ends at `top_hz` (Hz), with modes counted by Weyl's law.
+    /// The law's perimeter term is left out where it would leave no mode.
     pub fn of(surface: &Surface, top_hz: f64) -> Self {
         Self::within(surface, [surface.emission.band[0], top_hz])
     }
 
-    /// The statistics of a surface in a band that ends at `top_hz` (Hz), from `first_hz` (Hz) on, the frequency of its first mode, if that is
-    /// in the band: nothing rings below it, where losses that fall with frequency would make statistics ring for ever.
+    /// The statistics of a surface in a band from `first_hz`, the frequency of its first mode, to `top_hz`
+    /// (both Hz); from the bottom of the surface's band if the first mode is not in it. Nothing resonates
+    /// below the first mode, where decay that grows longer towards low frequency would count as long
+    /// reverberation.
     pub(super) fn ringing(surface: &Surface, first_hz: f64, top_hz: f64) -> Self {
         let low = surface.emission.band[0];
         let first = low.max(first_hz);
         Self::within(surface, [if first < top_hz { first } else { low }, top_hz])
     }
 
-    /// The statistics of a surface between two frequencies (Hz), as [`Cavity::of`].
+    /// The statistics of a surface between two frequencies (Hz), computed as in [`Cavity::of`].
     pub(super) fn within(surface: &Surface, [low_hz, top_hz]: [f64; 2]) -> Self {
         let medium = Medium::of(&surface.sheet);
         let first = medium.wavenumber(TAU * low_hz.max(0.0));
@@ -160,7 +164,8 @@ impl Cavity {
         self.bandwidth
     }
 
-    /// Width of a band of constant modal density with as many modes and the same leakage, M²/∫n²df, in Hz.
+    /// Width, in Hz, of a band of constant modal density that has the same number of modes and the same
+    /// leakage between modes: M²/∫n²df.
     pub fn effective_bandwidth(&self) -> f64 {
         self.modes().powi(2) / self.sum(|bin| bin.modes * bin.density)
     }
@@ -170,8 +175,8 @@ impl Cavity {
         self.modes() / self.sum(|bin| bin.modes * bin.sigma)
     }
 
-    /// Exponent p, dimensionless, of a modal density that grows from the bottom of the band as a power p of frequency and has
-    /// the same mean frequency.
+    /// Exponent p, dimensionless, of the modal density, modelled as growing from the bottom of the band as
+    /// a power p of frequency; chosen so that the modes have their actual mean frequency.
     pub fn growth(&self) -> f64 {
         let top = self.bins.last().map_or(1.0, |bin| bin.hz);
         let low = top - self.bandwidth;
@@ -179,13 +184,14 @@ impl Cavity {
         ((2.0 * mean - 1.0) / (1.0 - mean)).clamp(0.0, 4.0)
     }
 
-    /// Contrast, a ratio of amplitudes, of a single focus for `actuators` actuators and a window in seconds.
+    /// Contrast, a ratio of amplitudes, of a single focus with a given number of `actuators` and a window
+    /// in seconds.
     pub fn contrast(&self, actuators: f64, window: f64) -> f64 {
         self.noise(actuators, window, |_| 0.0, |_| 0.0).powf(-0.5)
     }
 
-    /// Contrast of a focus repeated every `period` seconds (T_r), in the steady state, for `actuators` actuators and a window in
-    /// seconds.
+    /// Contrast of a focus repeated every `period` seconds (T_r), in the steady state, with a given number
+    /// of `actuators` and a window in seconds.
     ///
     /// With x = e^{-2T_r/τ}, the field at a focal instant contains, besides the pulse itself,
     /// - from the pulse k periods before: its leakage times x^k, with a new phase for each pair of modes;
@@ -214,20 +220,23 @@ impl Cavity {
         self.noise(actuators, window, leakage, echo).powf(-0.5)
     }
 
-    /// Contrast, for `actuators` actuators and a window in s, if responses are recorded or the drive is emitted with noise, whose
-    /// rms is `ratio` times that of the responses over the window, both within the band.
+    /// Contrast with noise in the recorded responses or in the emitted drive, for a given number of
+    /// `actuators` and a window in s. `ratio` is the rms of the noise over the rms of the responses, both
+    /// in the band and over the window.
     pub fn noisy(&self, actuators: f64, window: f64, ratio: f64) -> f64 {
         let noise = super::closed::noise_share(actuators, self.bandwidth, window, ratio);
         let heard = self.modes() / self.local_modes();
         (self.contrast(actuators, window).powi(-2) + noise * heard).powf(-0.5)
     }
 
-    /// Time that waves take to cross the surface along the mean chord πS/P, averaged over the modes, in s.
+    /// Time that waves take to cross the surface along the mean chord πS/P, averaged over the modes of the
+    /// band, in s.
     pub fn crossing(&self) -> f64 {
         self.sum(|bin| bin.modes * bin.trip) / self.modes() / 2.0
     }
 
-    /// 1/C²; `leakage` and `echo` are the parts that repetition adds, as multiples of the leakage and of the modes' own focus.
+    /// The reciprocal square 1/C² of the contrast; `leakage` and `echo` are the parts that repetition adds,
+    /// relative to the leakage between modes and to the modes' own contribution to the focus.
     fn noise(
         &self,
         actuators: f64,
@@ -246,23 +255,25 @@ impl Cavity {
         noise / (peak * peak)
     }
 
-    /// Sum of a number over all bins.
+    /// Sum of the quantity `f` over all bins.
     fn sum(&self, f: impl Fn(&Bin) -> f64) -> f64 {
         self.bins.iter().map(f).sum()
     }
 }
 
-/// Length P of the rim in Weyl's law: fixed edges (clamped or supported) minus edges that move (free or elastic), in metres.
+/// Effective perimeter P in Weyl's law: length of the fixed edges (clamped or supported) minus that of the
+/// edges that move (free or elastic), in metres.
 fn signed_perimeter(outline: &Outline) -> f64 {
     outline.perimeter() - 2.0 * outline.free_length()
 }
 
-/// Modes per unit wavenumber, in metres, for an area S (m²) and a rim P (m) at the wavenumber `k` (rad/m).
+/// Modes per unit wavenumber, in metres, for an area S (m²) and a perimeter P (m) at the wavenumber `k`
+/// (rad/m).
 fn weyl(area: f64, rim: f64, k: f64) -> f64 {
     (2.0 * area * k - rim) / (4.0 * PI)
 }
 
-/// ∫_0^T e^{-rate·t} dt, also for no decay.
+/// ∫_0^T e^{-rate·t} dt, in s; the window T if the rate is zero.
 fn ring(rate: f64, window: f64) -> f64 {
     // For smaller values the quotient loses digits, and the integral is the window.
     if rate * window > 1e-9 { -(-rate * window).exp_m1() / rate } else { window }

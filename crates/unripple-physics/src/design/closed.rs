@@ -27,8 +27,9 @@ pub fn effective_window(window: f64, decay_time: f64) -> f64 {
     if decay_time.is_finite() { decay_time * (window / decay_time).tanh() } else { window }
 }
 
-/// Contrast C_TR of time reversal, a ratio, without the side lobes of the focus: C_TR² = 2NBτ / (coth(T/τ) + 4τ/n̄),
-/// B in Hz, τ and T in s.
+/// Contrast C_TR of time reversal, a ratio, without the side lobes of the focus: C_TR² = 2NBτ/(coth(T/τ) +
+/// 4τ/n̄) for N `actuators`, `bandwidth` B in Hz, `decay_time` τ and `window` T in s, and n̄ = M/B with M
+/// `modes`.
 ///
 /// The limits of C_TR² are 2NBT for short windows (the √(NT) law of section 3.1 of the paper, with its constant), 2NBτ for long
 /// windows and NM/2 for long decay.
@@ -38,21 +39,23 @@ pub fn contrast_tr(actuators: f64, bandwidth: f64, decay_time: f64, window: f64,
     (2.0 * actuators * bandwidth * reach / (1.0 + 4.0 * reach / heisenberg)).sqrt()
 }
 
-/// Contrast C of time reversal, a ratio, with the side lobes of the focus outside the focal disc: 1/C² = 1/C_TR² + e/M, B in Hz,
-/// τ and T in s.
+/// Contrast C of time reversal, a ratio, with the side lobes of the focus outside the focal disc: 1/C² =
+/// 1/C_TR² + e/M, with C_TR of [`contrast_tr`] (B in Hz, τ and T in s), M `modes` and the share e of the
+/// focus's energy outside the disc ([`exposure`]).
 pub fn contrast(actuators: f64, bandwidth: f64, decay_time: f64, window: f64, modes: f64) -> f64 {
     let noise = contrast_tr(actuators, bandwidth, decay_time, window, modes).powi(-2);
     (noise + exposure(TAU * FOCAL_RADIUS) / modes).powf(-0.5)
 }
 
-/// Contrast, a ratio, of each of `foci` equal simultaneous foci, from that of a single one: their backgrounds add in power, so
-/// that it falls as 1/√foci.
+/// Contrast, a ratio, of each of `foci` equal simultaneous foci, given the contrast of a single focus: the
+/// backgrounds add in power, so that contrast falls as 1/√foci.
 pub fn foci(contrast: f64, foci: f64) -> f64 {
     contrast / foci.sqrt()
 }
 
-/// Contrast of a focus repeated every `period` T_r (s), in the simplest form: 1/C² = q/C_TR² + e/M + (q - 1)/2M with
-/// q = coth(T_r/τ), B in Hz, τ and T in s.
+/// Contrast of a focus repeated every `period` T_r (s), in the simplest form: 1/C² = q/C_TR² + e/M +
+/// (q-1)/2M with q = coth(T_r/τ), C_TR of [`contrast_tr`] (B in Hz, τ and T in s), and e and M as in
+/// [`contrast`].
 ///
 /// This form counts all later pulses as complete, and adds the echoes of earlier and later pulses in power. [`super::Cavity::repeated`]
 /// is more accurate.
@@ -79,7 +82,8 @@ pub fn noise_share(actuators: f64, bandwidth: f64, window: f64, ratio: f64) -> f
     ratio * ratio / (2.0 * actuators * bandwidth * window)
 }
 
-/// Share e = J_0²(x) + J_1²(x) of the energy of a focus 2J_1(kr)/kr that lies beyond the radius r = x/k; about 2/πx.
+/// Share e = J_0²(x) + J_1²(x) of the energy of a focus 2J_1(kr)/kr that lies beyond the radius r = x/k;
+/// about 2/πx for large x.
 pub fn exposure(x: f64) -> f64 {
     bessel_j(0, x).powi(2) + bessel_j(1, x).powi(2)
 }

@@ -8,8 +8,8 @@ use unripple_core::{Sheet, Surface};
 /// rows of the table.
 const AMPLITUDES: [f64; 3] = [10e-6, 40e-6, 200e-6];
 
-/// Relative change of tension that counts as the limit of linear theory: frequencies then shift by 5 %. With twice this value, the limit
-/// of displacement grows by √2.
+/// Relative change of tension taken as the limit of linear theory: frequencies then shift by 5 %. With
+/// twice this value, the limit of displacement grows by √2.
 pub(super) const TENSION_CHANGE: f64 = 0.1;
 
 /// Strains of the sheet at several amplitudes of displacement, and the limits of linear theory.
@@ -17,9 +17,9 @@ pub(super) const TENSION_CHANGE: f64 = 0.1;
 pub struct Deformation {
     /// Strain at yield or fracture, strength/E; `None` where the strength is unknown.
     pub yield_strain: Option<f64>,
-    /// Strain of the sheet at rest by its tension, (1 - ν) R/Eh.
+    /// Strain of the sheet at rest due to its tension, (1 - ν) R/Eh.
     pub tension_strain: f64,
-    /// Strains and slopes for waves of several amplitudes.
+    /// Strains and slopes of plane waves, one row for each of several amplitudes.
     pub rows: Vec<Bend>,
     /// Amplitude at which the strain reaches yield, in metres; `None` where the strength is unknown or tension alone reaches it.
     pub yield_amplitude_m: Option<f64>,
@@ -33,7 +33,8 @@ pub struct Deformation {
     pub linear_limit_tension_m: Option<f64>,
 }
 
-/// Strains by a plane wave of the shortest wavelength at one amplitude: an upper bound for a focus, whose curvature is a quarter.
+/// Strains by a plane wave of the shortest wavelength at one amplitude: an upper bound for a focus of that
+/// amplitude, whose curvature is a quarter of the wave's.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Bend {
     /// Amplitude A, in metres.
@@ -50,13 +51,13 @@ pub struct Bend {
     pub stretching_strain: f64,
     /// Sum of the strains by tension, bending and stretching.
     pub strain: f64,
-    /// Total strain over the strain at yield; `None` where the strength is unknown.
+    /// Total strain relative to the strain at yield; `None` where the strength is unknown.
     pub share_of_yield: Option<f64>,
     /// Whether linear theory holds: the amplitude is below both limits of [`Deformation`].
     pub linear: bool,
 }
 
-/// Strains and limits of a surface at the shortest wavelength of its band.
+/// Strains of a surface, and its limits of linear theory, at the shortest wavelength of its band.
 pub fn deformation(surface: &Surface) -> Deformation {
     let sheet = &surface.sheet;
     let k = TAU / Medium::of(sheet).lambda_min(surface.emission.band[1]);

@@ -20,31 +20,36 @@ pub struct Design {
     pub actuators: usize,
     /// Lowest and highest frequency of the band, in Hz.
     pub band_hz: [f64; 2],
-    /// Phase velocity at the bottom of the band, in m/s; that of the first mode if it is zero at the bottom (plates, air).
+    /// Phase velocity at the bottom of the band, in m/s; the phase velocity of the first mode if it is zero
+    /// at the bottom, as for plates at 0 Hz.
     pub celerity_min_m_s: f64,
     /// Phase velocity at the top of the band, in m/s.
     pub celerity_max_m_s: f64,
     /// Shortest wavelength of the band, in metres.
     pub lambda_min_m: f64,
-    /// Coincidence frequency, above which waves are faster than sound in air and radiate, in Hz; `None` if there is none.
+    /// Coincidence frequency in Hz, above which waves on the sheet are faster than sound in air and
+    /// radiate; `None` if there is none.
     pub coincidence_hz: Option<f64>,
-    /// The dispersion relation, as waves of frequencies over the band.
+    /// The dispersion relation, as a table of waves at frequencies over the band.
     pub dispersion: Vec<Wave>,
-    /// Number of modes in the band, counted; `None` where modes cannot be computed.
+    /// Number of modes in the band, counted after solving for the modes; `None` where modes cannot be
+    /// computed.
     pub mode_count_exact: Option<usize>,
     /// Why there is no exact count, in words; `None` if there is one.
     pub mode_count_exact_reason: Option<String>,
-    /// Number of modes in the band by Weyl's law: Sk²/4π and a term of the rim, of each edge as it reflects waves (fixed, -Pk/4π for a
-    /// membrane; more for a clamped plate).
+    /// Number of modes in the band by Weyl's law: Sk²/4π plus a term for each edge, which depends on how
+    /// the edge reflects waves (-Pk/4π for the fixed edge of a membrane, larger for a clamped plate).
     pub mode_count_weyl: f64,
     /// Frequency of the first mode, in Hz; by Weyl's law where modes cannot be computed.
     pub first_mode_hz: f64,
-    /// Modes with the actuators on the sheet, of which the counts, the first mode and the decay time here know nothing; `None` if no
-    /// actuator loads the sheet, or if modes cannot be computed.
+    /// Modes with the actuators on the sheet, which the mode counts, first mode and decay time in this
+    /// struct ignore; `None` if no actuator loads the sheet, or if modes cannot be computed.
     pub with_actuators: Option<WithActuators>,
-    /// Heisenberg time, the mean number of modes per hertz n̄ = M/B, in seconds: the time needed to resolve neighbouring modes.
+    /// Heisenberg time n̄ = M/B, in seconds: the mean number of modes per hertz over the band, which is the
+    /// time needed to resolve neighbouring modes.
     pub heisenberg_time_s: f64,
-    /// Heisenberg time at the top of the band, the modes per hertz there by Weyl's law, in seconds.
+    /// Heisenberg time at the top of the band, in seconds: the number of modes per hertz there by Weyl's
+    /// law.
     pub heisenberg_time_top_s: f64,
     /// Decay time of the amplitude, averaged over modes, in seconds.
     pub decay_time_s: f64,
@@ -52,29 +57,36 @@ pub struct Design {
     pub window_recommended_s: f64,
     /// Why this window is recommended, in words.
     pub window_recommended_why: String,
-    /// Exponent of the window T in the contrast around the recommended window, dimensionless; a half for the √T law.
+    /// Exponent p, dimensionless, of the contrast as a function T^p of the window T around the recommended
+    /// window; ½ for the √T law.
     pub window_exponent: f64,
-    /// Predicted contrast at the recommended window: the mean over many targets, computed from the modes with the surface's own actuators
-    /// ([`Windows`](super::Windows)); by [`Cavity::contrast`](super::Cavity::contrast) where modes are not known.
+    /// Predicted contrast at the recommended window: the mean over many targets, computed from the modes
+    /// with the surface's own actuators ([`Windows`](super::Windows)), or by
+    /// [`Cavity::contrast`](super::Cavity::contrast) where modes are not known.
     pub contrast_predicted: f64,
-    /// The contrasts that one target in twenty stays below, and one in twenty exceeds, at that window; `None` where modes are not known.
+    /// The 5 % and 95 % quantiles of the contrast over targets, at the recommended window; `None` where
+    /// modes are not known.
     pub contrast_interval: Option<[f64; 2]>,
     /// How `contrast_predicted` was computed.
     pub contrast_from: Predicted,
     /// Contrast at the recommended window by the simplest closed form ([`closed::contrast`]).
     pub contrast_plain: f64,
-    /// Predicted contrast as in `contrast_predicted`, but at the window of the largest contrast.
+    /// Predicted contrast as in `contrast_predicted`, but at the window that gives the largest contrast.
     pub contrast_endless: f64,
-    /// Numbers of actuators that are compared, ascending and without repetition: 1, N/4, N/2 (both rounded up), N, 2N and 4N, with N the
-    /// surface's own number.
+    /// Numbers of actuators that are compared, ascending and without repetition: 1, N/4, N/2 (both rounded
+    /// up), N, 2N and 4N, with N the number of actuators of the surface.
     pub actuator_counts: Vec<usize>,
-    /// Predicted contrast against window, from a quarter of the recommended one to four times that, and number of actuators.
+    /// Table of predicted contrast against window, from a quarter of the recommended window to four times
+    /// that, and number of actuators.
     pub contrast_by_window: Vec<ByWindow>,
-    /// Predicted contrast against bandwidth, for the surface's number of actuators and the recommended window.
+    /// Table of predicted contrast against bandwidth, for the surface's number of actuators and the
+    /// recommended window.
     pub contrast_by_band: Vec<ByBand>,
-    /// Predicted contrast against noise, for the surface's number of actuators and the recommended window.
+    /// Table of predicted contrast against noise, for the surface's number of actuators and the recommended
+    /// window.
     pub contrast_by_noise: Vec<ByNoise>,
-    /// Predicted contrast against rate of repetition, for the surface's number of actuators and the recommended window.
+    /// Table of predicted contrast against the rate at which the focus is repeated, for the surface's
+    /// number of actuators and the recommended window.
     pub contrast_by_rate: Vec<ByRate>,
     /// Full width at half maximum of a focus in space, in metres.
     pub spot_diameter_m: f64,
@@ -82,13 +94,15 @@ pub struct Design {
     pub spot_diameter_one_frequency_m: f64,
     /// Full width at half maximum of a focus in time, in seconds.
     pub pulse_duration_s: f64,
-    /// Bending, strain and the limits of linear theory.
+    /// Bending and strain of the sheet at several amplitudes, and the limits of linear theory.
     pub deformation: Deformation,
-    /// Power to move a finger by 10 µm, for a strip of this sheet at its shortest wavelength and at twice that.
+    /// Power needed to move a finger by 10 µm, on a strip of this sheet, at the sheet's shortest wavelength
+    /// and at twice that.
     pub touch: Vec<Touch>,
-    /// How far these figures reach, and what they leave out on this surface.
+    /// Notes on the limits of these figures, and on what they leave out for this surface.
     pub notes: Vec<Note>,
-    /// What the paper (Hudin et al. 2012) says about this surface; `None` for every surface but its film.
+    /// What the paper (Hudin et al. 2012) says about this surface; `None` for every surface but the paper's
+    /// own film.
     pub paper: Option<PaperFigures>,
 }
 
@@ -96,9 +110,9 @@ pub struct Design {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Predicted {
-    /// From the surface's own modes with its actuators, at many targets: a simulation.
+    /// From the surface's own modes with its actuators, at many targets: a simulation of time reversal.
     Modes,
-    /// From the statistics of a band with that density of modes and decay.
+    /// From statistics of the band: its modal density and decay times.
     Statistics,
 }
 
@@ -109,7 +123,7 @@ impl Design {
         format!("{ms} ms, {}", self.window_recommended_why)
     }
 
-    /// All figures except the notes and those of the paper, which comment on the others.
+    /// Computes all figures except the notes and those of the paper, which comment on the other figures.
     pub(super) fn on(ground: &Ground) -> Self {
         let Ground { surface, medium, cavity, actuators: n, window, .. } = ground;
         let (n, chosen, window) = (*n, window, window.seconds);

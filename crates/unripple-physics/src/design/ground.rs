@@ -7,23 +7,23 @@ use crate::{Accuracy, Medium, Modes, PhysicsError};
 use std::f64::consts::TAU;
 use unripple_core::{OutOfRange, Surface};
 
-/// Relative accuracy of the frequencies that are counted: 0.3 Hz at 3 kHz, so that a count is wrong by one at
-/// most where modes are hertz apart. Smaller, counts take longer and hardly change.
+/// Relative accuracy of the natural frequencies for counting modes: 0.3 Hz at 3 kHz, so that a count is
+/// wrong by at most one where modes are hertz apart. Smaller, counts take longer and hardly change.
 pub(super) const ACCURACY: f64 = 1e-4;
 
 /// The quantities from which all figures of a design are computed.
 pub(super) struct Ground<'a> {
-    /// Surface that is designed.
+    /// The surface for which the figures are computed.
     pub surface: &'a Surface,
-    /// Wave properties of its sheet: mass, tension, stiffness and air.
+    /// Wave properties of the sheet: mass, tension, stiffness and air.
     pub medium: Medium,
-    /// Statistics of the band, its modes scaled to the exact count where there is one.
+    /// Statistics of the band, with the number of modes scaled to the exact count if there is one.
     pub cavity: Cavity,
-    /// Exact mode count over that of Weyl's law.
+    /// Exact mode count relative to the count by Weyl's law.
     pub scale: f64,
-    /// Number of modes in the band, counted, or why they are not.
+    /// Number of modes in the band, or the reason why they were not counted.
     pub counted: Result<usize, String>,
-    /// The first mode, in Hz.
+    /// Frequency of the first mode, in Hz.
     pub first_mode_hz: f64,
     /// Wavenumber at the top of the band, in rad/m.
     pub k_top: f64,
@@ -31,18 +31,18 @@ pub(super) struct Ground<'a> {
     pub actuators: f64,
     /// The recommended window.
     pub window: Recommended,
-    /// Contrast against window, from which that window was chosen.
+    /// Contrast against window, from which the recommended window was chosen.
     pub windows: Windows,
-    /// Contrast with the chosen window over that by the statistics of the modes.
+    /// Contrast with the recommended window relative to the contrast by the statistics of the modes.
     statistics_scale: f64,
-    /// Contrast with the chosen window, computed from the modes as coupled to all that is attached to the sheet; `None` where the
-    /// window is chosen by statistics.
+    /// Contrast with the recommended window, computed from the modes as coupled to all that is attached to
+    /// the sheet; `None` where the window is chosen by statistics.
     pub loaded_contrast: Option<f64>,
 }
 
 impl<'a> Ground<'a> {
-    /// The quantities for a surface, given its mode count from [`count`] or [`counted`] (or why there is none), and the contrasts
-    /// from which a window is chosen.
+    /// The quantities for a surface. `counted` is its mode count from [`count`] or [`counted`], or the
+    /// reason why there is none; `windows` gives the contrasts from which a window is chosen.
     pub fn of(
         surface: &'a Surface,
         counted: Counted,
@@ -54,7 +54,7 @@ impl<'a> Ground<'a> {
         let by_law = Cavity::of(surface, top);
         let first = counted.as_ref().ok().and_then(|(_, first)| *first);
         let first_mode_hz = first.unwrap_or_else(|| medium.omega(Weyl::of(surface).first_wavenumber()) / TAU);
-        // The law is asked only where nothing has been counted: of few modes it knows little.
+        // Weyl's law is used only where modes have not been counted: it is inaccurate for few modes.
         let few = counted.as_ref().map_or_else(|_| by_law.modes() < 1.0, |(count, _)| *count == 0);
         if few {
             let low = surface.emission.band[0];
@@ -90,7 +90,7 @@ impl<'a> Ground<'a> {
         Ok(ground)
     }
 
-    /// Number of modes by Weyl's law from the bottom to the top of the band.
+    /// Number of modes in the band by Weyl's law.
     pub fn weyl_count(&self) -> f64 {
         let law = Weyl::of(self.surface);
         let below = |hz: f64| law.below(self.medium.wavenumber(TAU * hz)).max(0.0);
@@ -103,7 +103,8 @@ impl<'a> Ground<'a> {
         density.max(0.0) / self.medium.group_celerity(self.k_top)
     }
 
-    /// Phase velocity at the bottom of the band, in m/s, or that of the first mode if it is 0 at the bottom.
+    /// Phase velocity at the bottom of the band, in m/s, or the phase velocity of the first mode if it is 0
+    /// at the bottom.
     pub fn celerity_min(&self) -> f64 {
         let at = |hz: f64| self.medium.phase_celerity(self.medium.wavenumber(TAU * hz));
         let bottom = at(self.surface.emission.band[0]);
@@ -116,32 +117,36 @@ impl<'a> Ground<'a> {
         (2.0 * area * TAU / WAVELENGTH + rim) / (2.0 * self.actuators * self.celerity_min())
     }
 
-    /// Contrast with the recommended window: from the modes with the surface's own actuators, or by statistics of the band where these are
-    /// not known.
+    /// Contrast with the recommended window: from the modes with the surface's own actuators, or by
+    /// statistics of the band where the modes are not known.
     pub fn contrast(&self) -> f64 {
         self.loaded_contrast.unwrap_or_else(|| self.cavity.contrast(self.actuators, self.window.seconds))
     }
 
-    /// Expected contrast for each number of `actuators` like those of the surface and a window in s: by the statistics of its own modes, or
-    /// of its band where these are not known; scaled so that it agrees with [`Ground::contrast`] where that holds.
+    /// Expected contrast for each number of `actuators` like those of the surface and a window in s: by the
+    /// statistics of the surface's own modes, or of its band where the modes are not known. Scaled so that
+    /// it agrees with [`Ground::contrast`] for the surface's own number of actuators and the recommended
+    /// window.
     pub fn expected(&self, actuators: &[f64], window: f64) -> Vec<f64> {
         let mut found = self.by_statistics(actuators, window);
         found.iter_mut().for_each(|contrast| *contrast *= self.statistics_scale);
         found
     }
 
-    /// The same, not scaled.
+    /// Expected contrast as in [`Ground::expected`], but not scaled.
     fn by_statistics(&self, actuators: &[f64], window: f64) -> Vec<f64> {
         let by_law = || actuators.iter().map(|n| self.cavity.contrast(*n, window)).collect();
         self.windows.expected(actuators, window).unwrap_or_else(by_law)
     }
 
-    /// What forms of the band alone are to be multiplied by to agree with [`Ground::contrast`].
+    /// Factor by which contrasts computed from the band alone are multiplied to agree with
+    /// [`Ground::contrast`].
     pub fn correction(&self) -> f64 {
         self.contrast() / self.cavity.contrast(self.actuators, self.window.seconds)
     }
 
-    /// Exponent of T in the contrast around the recommended window, dimensionless; ½ is the √T law.
+    /// Exponent of the window T in the contrast around the recommended window, dimensionless; ½ is the √T
+    /// law.
     pub fn exponent(&self) -> f64 {
         // A central difference over 5 % to either side.
         let (step, window) = (1.05, self.window.seconds);
@@ -166,10 +171,11 @@ fn check(surface: &Surface) -> Result<(), PhysicsError> {
     Ok(())
 }
 
-/// Number of modes in the band and the first frequency above 0, in Hz, or why they are not known.
+/// Number of modes in the band and the first frequency above 0, in Hz; or the reason why they are not
+/// known.
 pub(super) type Counted = Result<(usize, Option<f64>), String>;
 
-/// Solves for the modes and counts them.
+/// Solves for the modes of a surface and counts those in its band.
 pub(super) fn count(surface: &Surface) -> Counted {
     check(surface).map_err(|e| e.to_string())?;
     let accuracy = Accuracy::of(surface.accuracy, ACCURACY);

@@ -6,17 +6,20 @@ use crate::Medium;
 use std::f64::consts::TAU;
 use unripple_core::{Actuator, ActuatorKind, Patch, Sheet, Surface};
 
-/// Thickness over the shortest wavelength from which on a note gives the error of thin-plate theory: there its frequencies are 2 % too
-/// high. With twice this value, 7 % would not be noted.
+/// Ratio of thickness to shortest wavelength above which a note states the error of thin-plate theory: at
+/// this ratio, its frequencies are 2 % too high. With twice this value, errors up to 7 % would not be
+/// noted.
 const THICK: f64 = 0.05;
 
-/// Thickness over the shortest wavelength from which on thin-plate theory should not be relied on: its frequencies are 7 % too high there.
+/// Ratio of thickness to shortest wavelength above which thin-plate theory should not be relied on: at this
+/// ratio, its frequencies are 7 % too high.
 const TOO_THICK: f64 = 0.1;
 
 /// Shear correction factor of a plate of one material: the parabolic profile of shear stress over the thickness (Reissner 1945).
 const SHEAR: f64 = 5.0 / 6.0;
 
-/// Width over the shortest wavelength from which on a contact counts as wide: parts of it then move in opposition.
+/// Ratio of width to shortest wavelength above which a contact counts as wide: parts of it then move in
+/// opposition.
 const WIDE: f64 = 0.5;
 
 /// Notes on where the model reaches its limits on a surface; none where it holds.
@@ -37,8 +40,9 @@ pub fn limits(surface: &Surface) -> Vec<Note> {
     [thick(surface), wide(surface)].into_iter().flatten().collect()
 }
 
-/// Ratio of the natural frequency by thin-plate (Kirchhoff) theory to that by Mindlin's theory with shear and rotary inertia, of a wave of
-/// wavenumber `k` (rad/m) in a sheet of one material, without air; 1 for a sheet without thickness.
+/// For a wave of wavenumber `k` (rad/m) in a sheet of one material, without air: the ratio of its frequency
+/// by thin-plate (Kirchhoff) theory to its frequency by Mindlin's theory, which includes shear and rotary
+/// inertia. It is 1 for a sheet without thickness.
 ///
 /// Mindlin's frequency is the lower root of the dispersion relation for deflection and rotation,
 /// (κGhk² + Tk² - ρhω²)(Dk² + κGh - ρh³ω²/12) = (κGhk)², with κ = 5/6.
@@ -109,7 +113,7 @@ fn wide(surface: &Surface) -> Option<Note> {
     })
 }
 
-/// The largest width of what an actuator acts through, in metres.
+/// The largest width of an actuator's patch or contact disc, in metres.
 fn width(actuator: &Actuator) -> f64 {
     match actuator.kind {
         ActuatorKind::Piezo { patch: Patch::Round { radius }, .. } => 2.0 * radius,

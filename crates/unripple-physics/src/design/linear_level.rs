@@ -4,35 +4,35 @@ use super::Linearity;
 use super::deformation::TENSION_CHANGE;
 use unripple_core::Surface;
 
-/// Share of each bound of linear theory that is used, as a margin: half the thickness is well within it.
-/// With twice this value, fields may reach the bounds themselves.
+/// Share of each bound of linear theory that is used, to leave a margin: half the thickness is well within
+/// linear theory. With twice this value, fields may reach the bounds themselves.
 const SHARE: f64 = 0.5;
 
-/// The bound of linear theory that a field reaches first.
+/// The limit of linear theory that a field reaches first as it grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LinearBound {
     /// The displacement reaches the sheet's thickness.
     Thickness,
-    /// The tension added by slopes reaches a tenth of the tension.
+    /// The tension added by the slopes of the field reaches a tenth of the sheet's tension.
     Tension,
-    /// The strain reaches that at yield.
+    /// The strain reaches the strain at yield.
     Yield,
 }
 
 /// The largest level of a field that linear theory allows, with the bound that limits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearLevel {
-    /// Factor by which the field is to be multiplied to reach this level.
+    /// Factor by which the field is to be multiplied to reach the largest level.
     pub factor: f64,
-    /// The bound that is reached first.
+    /// The bound that the field reaches first as it grows.
     pub bound: LinearBound,
 }
 
 impl LinearLevel {
-    /// The level at which a field reaches half of the first bound: a displacement of half the thickness, a change of tension of a
-    /// twentieth, or a strain half way from rest to yield. `found` describes the field at its present level. `None` if no bound is
-    /// known or if nothing moves.
+    /// The level at which a field reaches half of its first bound: a displacement of half the thickness, a
+    /// change of tension of a twentieth, or a strain half way from rest to yield. `found` describes the
+    /// field at its present level. `None` if no bound is known or if the field is zero.
     ///
     /// ```
     /// use unripple_physics::design::{LinearBound, LinearLevel, linearity, papers_surface};
@@ -56,8 +56,9 @@ impl LinearLevel {
     }
 }
 
-/// The factor on the field at which bending (in proportion to it) and stretching (to its square) use their share of the strain
-/// between tension and yield; `None` where the strength is unknown or tension alone reaches yield.
+/// The factor on the field at which bending strain (which grows in proportion) and stretching strain (which
+/// grows as the square) together use half of the strain between tension alone and yield; `None` where the
+/// strength is unknown or tension alone reaches yield.
 fn to_yield(surface: &Surface, found: &Linearity) -> Option<f64> {
     let sheet = &surface.sheet;
     let at_yield = sheet.strength? / sheet.young;

@@ -3,10 +3,12 @@
 use super::deformation::TENSION_CHANGE;
 use unripple_core::Surface;
 
-/// How large the deflections of a field are for linear theory: displacement, strains and added tension, estimated from the field.
+/// How close the deflections of a field come to the limits of linear theory: displacement, strains and
+/// added tension, estimated from the field.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Linearity {
-    /// Largest displacement over the sheet's thickness; from about 1 on the sheet stretches as much as it bends.
+    /// Largest displacement relative to the sheet's thickness; from about 1 on, the sheet stretches as much
+    /// as it bends.
     pub displacement_over_thickness: f64,
     /// Largest slope |∇u|, dimensionless.
     pub slope: f64,
@@ -16,16 +18,18 @@ pub struct Linearity {
     pub stretching_strain: f64,
     /// Tension that the deflection adds, spread evenly over the sheet by in-plane waves: Eh/(1 - ν) · ⟨|∇u|²⟩/4, in N/m.
     pub tension_added_n_per_m: f64,
-    /// The added tension over the sheet's tension; `None` without tension.
+    /// The added tension relative to the sheet's tension; `None` without tension.
     pub tension_change: Option<f64>,
-    /// Total strain by tension, bending and stretching over the strain at yield; `None` where the strength is unknown.
+    /// Total strain by tension, bending and stretching relative to the strain at yield; `None` where the
+    /// strength is unknown.
     pub share_of_yield: Option<f64>,
-    /// Whether linear theory holds: displacement up to the thickness, tension changed by up to a tenth, no yield.
+    /// Whether linear theory holds: displacement at most the thickness, tension changed by at most a tenth,
+    /// strain below yield.
     pub holds: bool,
 }
 
-/// Checks linear theory for a field on a surface, given its largest displacement (m) and slope, the mean square of its slope over
-/// the sheet, and its largest curvature (1/m).
+/// Checks whether linear theory holds for a field on a surface, given the field's largest displacement (m)
+/// and slope, the mean square of its slope over the sheet, and its largest curvature (1/m).
 ///
 /// A deflection u lengthens a line along x by the strain ½u_x². Its mean over the sheet, ⟨|∇u|²⟩/4 in each direction, adds to
 /// the tension once in-plane waves, which are fifty times faster than bending waves on a film, have spread it.
@@ -76,7 +80,7 @@ mod tests {
 
     #[test]
     fn agrees_with_the_limits_told_beforehand() {
-        // A focus 2J_1(kr)/kr of height A has ∫|∇u|² dS = 2πA²: at the limit told by `design`, a tenth.
+        // A focus 2J_1(kr)/kr of height A has ∫|∇u|² dS = 2πA²: at the limit that `design` states, a tenth.
         let film = papers_surface();
         let limit = deformation(&film).linear_limit_tension_m.unwrap();
         let mean_square = 2.0 * PI * limit * limit / film.outline.area();

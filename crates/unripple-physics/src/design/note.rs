@@ -1,9 +1,9 @@
 //! A note on the figures of a design.
 
-/// A statement on what the figures of a design mean on this surface, or leave out.
+/// A statement on what the figures of a design mean for this surface, or what they leave out.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Note {
-    /// What the note concerns.
+    /// Subject of the note, such as `thick sheet`.
     pub topic: String,
     /// The statement, in words.
     pub text: String,

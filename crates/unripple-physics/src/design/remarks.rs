@@ -6,7 +6,7 @@ use super::tradeoffs::by_rate;
 use super::{Design, Nature, PaperFigures, Remark, table1};
 use std::f64::consts::TAU;
 
-/// Phase velocities that the paper prints for the longest waves and for those of 15 mm, in m/s.
+/// Phase velocities that the paper prints for the longest waves and for waves of 15 mm, in m/s.
 const PRINTED_CELERITIES: [f64; 2] = [34.0, 43.0];
 
 /// The paper's figures for its own film, with the remarks on its text.
@@ -34,7 +34,7 @@ fn remark(topic: &str, nature: Nature, printed: &str, remark: impl Into<String>)
     Remark { topic: topic.into(), nature, printed: printed.into(), remark: remark.into() }
 }
 
-/// What can be shown from the paper alone. `tension` is that of the film here, in N/m.
+/// The remarks that can be shown from the paper alone. `tension` is that of the film here, in N/m.
 fn misprints(tension: f64, design: &Design, figures: &PaperFigures) -> [Remark; 3] {
     let [slow, fast] = PRINTED_CELERITIES;
     let window_ms = |celerity: f64| 1e3 * figures.window_s * design.celerity_min_m_s / celerity;
@@ -71,7 +71,7 @@ fn misprints(tension: f64, design: &Design, figures: &PaperFigures) -> [Remark; 
     ]
 }
 
-/// Counts of modes: edges and dispersion.
+/// The remarks on counts of modes: edges and dispersion.
 fn counts(design: &Design) -> [Remark; 2] {
     [
         remark(
@@ -97,7 +97,7 @@ fn counts(design: &Design) -> [Remark; 2] {
     ]
 }
 
-/// Laws of contrast: their range.
+/// The remarks on laws of contrast and their range.
 fn laws(design: &Design, figures: &PaperFigures) -> [Remark; 2] {
     [
         remark(
@@ -126,7 +126,7 @@ fn laws(design: &Design, figures: &PaperFigures) -> [Remark; 2] {
     ]
 }
 
-/// The strip under a finger: impedances, and which power is meant.
+/// The remarks on the strip under a finger: impedances, and which power is meant.
 fn finger(design: &Design) -> [Remark; 2] {
     let shortest = design.touch.first();
     let (strip, finger) =

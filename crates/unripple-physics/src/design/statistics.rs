@@ -1,4 +1,5 @@
-//! Statistical contrast of time reversal from the natural frequencies of a surface's own modes, for any number of actuators.
+//! Statistical contrast of time reversal (velocity at the focus over the rms elsewhere) from the natural
+//! frequencies of a surface's own modes, for any number of actuators.
 
 use super::window::{Modal, Term, integral};
 use crate::Medium;
@@ -7,15 +8,17 @@ use unripple_core::ModalResponses;
 use unripple_dsp::bessel_j;
 use unripple_linalg::c64;
 
-/// Modes on either side over which the mean gain of actuators is taken, so that it is that of a frequency and not of a mode's own nodes.
-/// With twice this value, it would blur the bottom of the band, where gains near a rim change from mode to mode.
+/// Number of modes on either side over which the mean gain of actuators is averaged, so that it depends on
+/// frequency and not on the nodes of a single mode. With twice this value, it would blur the bottom of the
+/// band, where gains near a rim change from mode to mode.
 const NEIGHBOURS: usize = 8;
 
-/// Steps of the integral over the focal disc. Doubled, Simpson's rule errs a sixteenth as much.
+/// Number of steps of the integral over the focal disc. Doubled, the error of Simpson's rule is a
+/// sixteenth.
 const RINGS: usize = 32;
 
-/// Expected contrast of time reversal for any number of actuators like those of a surface, from its own natural frequencies and decay
-/// rates, with mode shapes as random functions.
+/// Expected contrast of time reversal for any number of actuators like those of a surface, computed from
+/// the surface's own natural frequencies and decay rates, with mode shapes treated as random functions.
 ///
 /// Time reversal of the responses at A gives mode m the velocity Σ_n W_mn I_mn φ_n(A), with W_mn = Σ_a φ_m(a) φ_n(a) and
 /// I_mn = ∫_0^T g_m g_n dt ([`Windows`](super::Windows)). Frequencies and decay rates enter exactly, through I_mn: so neighbouring modes
@@ -33,9 +36,11 @@ pub struct Statistics {
     /// The velocities of all modes as exponentials.
     terms: Vec<Term>,
     modes: Vec<Mode>,
-    /// Relative variance of the squared shape at an actuator, once what all actuators share is taken out.
+    /// Relative variance of the squared mode shape at an actuator, without the part that all actuators have
+    /// in common.
     scatter: f64,
-    /// Relative variance over modes of the squared shape averaged over all actuators, an infinite number of them.
+    /// Relative variance over modes of the squared mode shape averaged over all actuators, for an infinite
+    /// number of actuators.
     shared: f64,
     /// Radius of the focal disc, in metres.
     radius: f64,
@@ -43,10 +48,10 @@ pub struct Statistics {
     area: f64,
 }
 
-/// Statistics of a mode that the mean contrast depends on.
+/// Statistics of a mode on which the mean contrast depends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Mode {
-    /// Mean square gain of the actuators for modes about this one.
+    /// Mean square gain of the actuators, averaged over this mode and its neighbours.
     driven: f64,
     /// Mean square shape at targets.
     at_targets: f64,
@@ -57,12 +62,14 @@ struct Mode {
 }
 
 impl Statistics {
-    /// The statistics of modal responses on a sheet of this `medium`; `None` where there is no actuator, no mode, or no room for targets.
+    /// The statistics of modal responses on a sheet of this `medium`; `None` if there is no actuator, no
+    /// mode, or no room for targets.
     pub fn of(responses: &ModalResponses, medium: Medium) -> Option<Self> {
         Some(Self::on(&Modal::of(responses).ok()?, responses, medium))
     }
 
-    /// The statistics of responses whose exponentials and shapes are known.
+    /// The statistics of modal responses for which `modal` (exponentials and mode shapes) has been
+    /// prepared.
     pub(super) fn on(modal: &Modal, responses: &ModalResponses, medium: Medium) -> Self {
         let ModalResponses { poles, input, conditions, .. } = responses;
         let count = poles.len();
@@ -77,7 +84,7 @@ impl Statistics {
         let total = whole.map(|(m, s)| relative(m, s)).sum::<f64>() / (count * actuators) as f64;
         let between = (0..count).map(|m| relative(m, own[m])).sum::<f64>() / count as f64;
         let n = actuators as f64;
-        // E between = shared + scatter/n, E total = shared + scatter; with one actuator the two cannot be told apart.
+        // E between = shared + scatter/n, E total = shared + scatter; with one actuator the two cannot be distinguished.
         let shared = if actuators > 1 { ((n * between - total) / (n - 1.0)).max(0.0) } else { 0.0 };
         let modes = (0..count).map(|m| Mode {
             driven: driven[m],
@@ -117,7 +124,7 @@ impl Statistics {
         actuators.iter().map(|n| contrast(*n)).collect()
     }
 
-    /// Integral of the square of the perfect focus over its disc, as a mean over the surface.
+    /// Integral of the square of the perfect focus over the focal disc, divided by the area of the surface.
     fn inside(&self, focus: &[f64]) -> f64 {
         let step = self.radius / RINGS as f64;
         let ring = |i: usize| {
@@ -166,7 +173,7 @@ struct Gathered {
     leaked: f64,
 }
 
-/// Means over neighbours on either side, fewer at the ends.
+/// Mean of each value and its neighbours on either side; fewer neighbours at the ends.
 fn smoothed(values: &[f64]) -> Vec<f64> {
     let about = |m: usize| {
         let reach = NEIGHBOURS.min(m).min(values.len() - 1 - m);

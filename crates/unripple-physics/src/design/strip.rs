@@ -21,13 +21,15 @@ use unripple_core::Finger;
 pub struct Strip {
     /// Mass per length ρ_l = ρhl of a strip of thickness h and width l, in kg/m.
     pub linear_density: f64,
-    /// Tension R_l, in N.
+    /// Tension of the strip R_l, a force in N.
     pub tension: f64,
-    /// Bending stiffness D_l = Eh³l/12, in N·m². Without the factor 1/(1 - ν²) of a plate, since a narrow strip can curve across.
+    /// Bending stiffness D_l = Eh³l/12, in N·m²: without the factor 1/(1 - ν²) of a plate, since a narrow
+    /// strip is free to curve across its width.
     pub bending_stiffness: f64,
 }
 
-/// Reflection, transmission and absorption of a wave at the finger. The three shares of its power sum to one.
+/// Reflection, transmission and absorption of a wave at the finger. The three shares of the wave's power
+/// sum to one.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Scattering {
     /// Frequency, in Hz.
@@ -36,11 +38,11 @@ pub struct Scattering {
     pub reflection: f64,
     /// Transmission coefficient abs(A_T/A_I), dimensionless.
     pub transmission: f64,
-    /// Share of the power that is reflected.
+    /// Share of the wave's power that is reflected.
     pub reflected_power: f64,
-    /// Share of the power that is transmitted.
+    /// Share of the wave's power that is transmitted.
     pub transmitted_power: f64,
-    /// Share of the power that the finger absorbs.
+    /// Share of the wave's power that the finger absorbs.
     pub absorbed_power: f64,
 }
 
@@ -83,7 +85,8 @@ impl Strip {
         omega * omega / 4.0 * both / strip * amplitude * amplitude
     }
 
-    /// Scattering at the finger of a wave of a frequency in Hz (equation 3): A_T/A_I = 2Z_S/(Z_F + 2Z_S), A_R/A_I = -Z_F/(Z_F + 2Z_S).
+    /// Scattering at the finger of a wave with the frequency `hz` (Hz), by equation 3: A_T/A_I =
+    /// 2Z_S/(Z_F + 2Z_S), A_R/A_I = -Z_F/(Z_F + 2Z_S).
     pub fn scattering(&self, finger: &Finger, hz: f64) -> Scattering {
         let strip = self.impedance(self.wavenumber(hz));
         let (resistance, reactance) = finger_impedance(finger, TAU * hz);

@@ -1,4 +1,4 @@
-//! Force and power that move a finger by 10 µm.
+//! Power of the wave that moves a finger by 10 µm, and the impedances involved.
 
 use super::Strip;
 use super::paper::{CONTACT, DISPLACEMENT, WAVELENGTH, film_strip, glass_strip};
@@ -6,8 +6,8 @@ use super::strip::finger_impedance;
 use std::f64::consts::TAU;
 use unripple_core::{Finger, Surface};
 
-/// Wavelengths for which a surface's own figures are given, as multiples of its shortest: power falls fast with wavelength. A
-/// third would tell little more.
+/// Wavelengths for which a surface's own figures are computed, as multiples of its shortest wavelength:
+/// power falls fast with wavelength. A third would tell little more.
 const MULTIPLES: [f64; 2] = [1.0, 2.0];
 
 /// Power of the wave that moves a finger by 10 µm, on a strip of sheet as wide as the contact, and the impedances involved
@@ -24,11 +24,11 @@ pub struct Touch {
     pub frequency_hz: f64,
     /// Impedance of the strip abs(Z_S), in N·s/m.
     pub impedance_n_s_per_m: f64,
-    /// Impedance of the finger abs(Z_F) at that frequency, in N·s/m.
+    /// Impedance of the finger abs(Z_F) at the wave's frequency, in N·s/m.
     pub finger_impedance_n_s_per_m: f64,
-    /// Power of the incident wave, in W (equation 4).
+    /// Power of the incident wave, in W (equation 4 of the paper).
     pub power_w: f64,
-    /// Share of that power that the finger absorbs.
+    /// Share of the incident power that the finger absorbs.
     pub absorbed_power: f64,
     /// The power printed in the paper, in W; `None` for strips that are not in its table 1.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -45,8 +45,8 @@ pub fn table1() -> Vec<Touch> {
     ]
 }
 
-/// The same figures for the surface's own sheet and finger, at its shortest wavelength `lambda_min` (m) and at twice that, with
-/// the contact of that finger.
+/// The power of the wave that moves the surface's finger by 10 µm on a strip of the surface's own sheet, at
+/// the shortest wavelength `lambda_min` (m) and at twice that.
 pub(super) fn own_touches(surface: &Surface, lambda_min: f64) -> Vec<Touch> {
     let sheet = &surface.sheet;
     let width =

@@ -1,4 +1,5 @@
-//! Tables of predicted contrast against window, number of actuators, bandwidth, rate of repetition and noise.
+//! Tables of predicted contrast (velocity at the focus over the rms elsewhere) against window, number of
+//! actuators, bandwidth, rate of repetition and noise.
 
 use super::Cavity;
 use super::closed;
@@ -6,14 +7,17 @@ use super::digits::rounded;
 use crate::Medium;
 use unripple_core::Surface;
 
-/// Steps of √2 from the recommended window to the shortest and to the longest in the table of contrast: from a quarter of it
-/// to four times. Twice as many would span a factor of 256, where contrast is flat at one end and useless at the other.
+/// Number of steps of √2 from the recommended window to the shortest and to the longest in the table of
+/// contrast: from a quarter of it to four times. Twice as many would span a factor of 256, where contrast
+/// is flat at one end and useless at the other.
 const STEPS: i32 = 4;
 
-/// Significant digits of the other windows in that table, as many as steps of √2 need. One more is harder to read.
+/// Significant digits of the other windows in the table of contrast: enough for steps of √2. One more is
+/// harder to read.
 const DIGITS: i32 = 2;
 
-/// Bandwidths in the table, as shares of the surface's band; 1 is the band itself, more shows what a wider one would give.
+/// Bandwidths in the table, relative to the surface's band; 1 is the band itself, larger values show what a
+/// wider band would give.
 const BANDS: [f64; 6] = [0.125, 0.25, 0.5, 0.75, 1.0, 1.5];
 
 /// Rates of repetition in the table, in Hz: from single foci to pulses that overlap on most surfaces.
@@ -37,11 +41,12 @@ pub struct ByWindow {
 pub struct ByBand {
     /// Top of the band, in Hz.
     pub top_hz: f64,
-    /// Shortest wavelength, in metres.
+    /// Shortest wavelength in this band, in metres.
     pub lambda_min_m: f64,
     /// Number of modes in the band, by Weyl's law scaled to the exact count of the surface's own band.
     pub modes: f64,
-    /// Predicted contrast, outside a focal disc of a radius of 4/3 of the shortest wavelength.
+    /// Predicted contrast; points farther from the target than 4/3 of the shortest wavelength count as
+    /// background.
     pub contrast: f64,
     /// Full width at half maximum of a focus in space, in metres.
     pub spot_diameter_m: f64,
@@ -61,22 +66,22 @@ pub struct ByRate {
 /// A row of the table of predicted contrast against noise in recording or emission.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct ByNoise {
-    /// Rms of the noise over rms of a response, in the band and over the window.
+    /// Rms of the noise relative to the rms of a response, both in the band and over the window.
     pub noise_ratio: f64,
     /// Predicted contrast, a ratio of amplitudes.
     pub contrast: f64,
 }
 
-/// Numbers of actuators to compare, ascending: one, a quarter and half of the surface's own number, that number, twice and
-/// four times it.
+/// Numbers of actuators to compare, ascending: one, then a quarter of, half of, once, twice and four times
+/// the surface's own number.
 pub(super) fn actuator_counts(own: usize) -> Vec<usize> {
     let mut counts = vec![1, own.div_ceil(4), own.div_ceil(2), own, 2 * own, 4 * own];
     counts.dedup();
     counts
 }
 
-/// Contrast (a ratio) for windows around the recommended one (s), which is among them, and for each number of actuators, as `expected` has it
-/// for numbers of actuators and a window in s.
+/// Table of contrast (a ratio) for each number of actuators in `counts`, at windows around and including
+/// the recommended one (s); `expected` computes the contrasts for numbers of actuators and a window in s.
 pub(super) fn by_window(
     expected: impl Fn(&[f64], f64) -> Vec<f64>,
     recommended: f64,
@@ -91,8 +96,10 @@ pub(super) fn by_window(
     (-STEPS..=STEPS).map(window).map(row).collect()
 }
 
-/// Contrast for bands of other widths, below half the sample rate, with a window in s; `first_mode_hz` is that of its first mode (Hz). `scale` is
-/// the exact mode count over Weyl's, `correction` the contrast in the surface's own band over that of the statistics.
+/// Table of contrast for bands of other widths, below half the sample rate, with a window in s;
+/// `first_mode_hz` is the frequency of the sheet's first mode (Hz). `scale` is the exact mode count
+/// relative to Weyl's, `correction` the contrast in the surface's own band relative to the contrast by
+/// statistics.
 pub(super) fn by_band(
     surface: &Surface,
     first_mode_hz: f64,
@@ -120,14 +127,16 @@ pub(super) fn by_band(
         .collect()
 }
 
-/// Contrast (a ratio) for the tabulated rates, with a window in s; `correction` is the contrast of a single focus over that of the cavity.
+/// Table of contrast (a ratio) for the tabulated rates, with a window in s; `correction` is the contrast of
+/// a single focus relative to the contrast of the cavity.
 pub(super) fn by_rate(cavity: &Cavity, correction: f64, actuators: f64, window: f64) -> Vec<ByRate> {
     let contrast = |rate_hz: f64| correction * cavity.repeated(actuators, window, 1.0 / rate_hz);
     let row = |&rate_hz: &f64| ByRate { rate_hz, contrast: contrast(rate_hz) };
     RATES.iter().map(row).collect()
 }
 
-/// Contrast (a ratio) for the tabulated levels of noise, with a window in s; `correction` is the contrast without noise over that of the cavity.
+/// Table of contrast (a ratio) for the tabulated levels of noise, with a window in s; `correction` is the
+/// contrast without noise relative to the contrast of the cavity.
 pub(super) fn by_noise(cavity: &Cavity, correction: f64, actuators: f64, window: f64) -> Vec<ByNoise> {
     let contrast = |ratio: f64| {
         // Noise adds to 1/C² of the corrected contrast as it does to that of the cavity.

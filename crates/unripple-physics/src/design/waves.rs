@@ -25,7 +25,8 @@ pub struct Wave {
     pub decay_time_s: f64,
 }
 
-/// Waves at evenly spaced frequencies of the band, in `steps` (a number of) steps from its bottom to its top, 0 Hz left out.
+/// Table of waves at evenly spaced frequencies from the bottom to the top of the band, in `steps` (a number
+/// of) intervals; 0 Hz is left out.
 pub(super) fn waves(surface: &Surface, steps: usize) -> Vec<Wave> {
     let [low, top] = surface.emission.band;
     let law = Weyl::of(surface);
@@ -36,7 +37,7 @@ pub(super) fn waves(surface: &Surface, steps: usize) -> Vec<Wave> {
         .collect()
 }
 
-/// The wave of one frequency (Hz), with the modes counted by that law.
+/// The wave of one frequency (Hz), with modes counted by Weyl's law.
 fn wave(surface: &Surface, law: &Weyl, hz: f64) -> Wave {
     let medium = Medium::of(&surface.sheet);
     let k = medium.wavenumber(TAU * hz);

@@ -1,15 +1,16 @@
-//! Number of modes of a sheet by Weyl's law, with the term that a rim of its own kind adds.
+//! Number of modes of a sheet by Weyl's law, with a boundary term that depends on the edge conditions.
 
 use crate::Medium;
 use std::f64::consts::{FRAC_PI_2, PI};
 use unripple_core::{Edge, Surface};
 use unripple_linalg::c64;
 
-/// Angles of incidence over which the term of the rim is averaged, by the midpoint rule. With twice this value, it errs a quarter as much;
-/// with 64 it is right to 1e-4 of itself.
+/// Number of angles of incidence over which the boundary term is averaged, by the midpoint rule. With twice
+/// this value, its error is a quarter; with 64, its relative error is 1e-4.
 const ANGLES: usize = 64;
 
-/// Relative step of the derivative of the count by the wavenumber. Larger, curvature would enter; smaller, rounding.
+/// Relative step of the derivative of the count with respect to the wavenumber. Larger, curvature would
+/// enter; smaller, rounding.
 const STEP: f64 = 1e-4;
 
 /// Weyl's law with two terms for a sheet: N(k) = S k²/4π + Σ L b(k)/π over the edges of length L.
@@ -22,7 +23,7 @@ const STEP: f64 = 1e-4;
 #[derive(Clone, Debug)]
 pub(super) struct Weyl {
     area: f64,
-    /// Length (m) of all edges of each kind, those of holes too.
+    /// Total length (m) of the edges with each edge condition, including the edges of holes.
     edges: Vec<(f64, Edge)>,
     sheet: Reflecting,
 }
@@ -36,7 +37,7 @@ struct Reflecting {
 }
 
 impl Weyl {
-    /// The law for a surface without what is on it.
+    /// The law for a surface, without the actuators and fingers on it.
     pub fn of(surface: &Surface) -> Self {
         let medium = Medium::of(&surface.sheet);
         let mut edges: Vec<(f64, Edge)> = Vec::new();
@@ -57,7 +58,8 @@ impl Weyl {
         }
     }
 
-    /// Number of modes below the wavenumber `k` (rad/m); below some wavelengths it may be negative.
+    /// Number of modes below the wavenumber `k` (rad/m); it may be negative where few wavelengths fit on
+    /// the sheet.
     pub fn below(&self, k: f64) -> f64 {
         let rim: f64 = self.edges.iter().map(|(length, edge)| length * self.sheet.term(*edge, k) / PI).sum();
         self.area * k * k / (4.0 * PI) + rim
@@ -68,7 +70,7 @@ impl Weyl {
         (self.below(k * (1.0 + STEP)) - self.below(k * (1.0 - STEP))) / (2.0 * STEP * k)
     }
 
-    /// The wavenumber below which the law counts one mode, in rad/m.
+    /// The wavenumber, in rad/m, below which the law counts exactly one mode.
     pub fn first_wavenumber(&self) -> f64 {
         // Where the term of the area alone counts one mode; the rim moves it by less than a factor of 2^10 either way.
         let start = (4.0 * PI / self.area).sqrt();
@@ -87,7 +89,7 @@ impl Weyl {
 }
 
 impl Reflecting {
-    /// k ∫ (1/4 + α/π) cos θ dθ of an edge, in rad/m.
+    /// Boundary term of an edge per length, k ∫ (1/4 + α/π) cos θ dθ, in rad/m.
     fn term(&self, edge: Edge, k: f64) -> f64 {
         let step = FRAC_PI_2 / ANGLES as f64;
         let angles = (0..ANGLES).map(|i| (i as f64 + 0.5) * step);
@@ -118,7 +120,8 @@ impl Reflecting {
         }
     }
 
-    /// α of a free edge: neither bending moment nor Kirchhoff's shear force.
+    /// Phase α of a wave reflected at a free edge, where neither bending moment nor Kirchhoff's shear force
+    /// acts.
     fn free(&self, normal: f64, along: f64, evanescent: f64) -> f64 {
         let [n2, a2, e2] = [normal, along, evanescent].map(|q| q * q);
         let (nu, tau) = (self.poisson, self.tension / self.bending);

@@ -6,19 +6,20 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 use unripple_core::Surface;
 
-/// What a design says of the modes of the sheet with its actuators on it.
+/// Mode count, first natural frequency and decay time of the sheet with its actuators attached.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WithActuators {
-    /// Number of modes in the band.
+    /// Number of modes in the band, with the actuators attached.
     pub mode_count: usize,
-    /// Frequency of the first mode above 0, in Hz.
+    /// Frequency of the first mode above 0 Hz, in Hz.
     pub first_mode_hz: f64,
     /// Decay time of the amplitude, in seconds: the reciprocal of the mean decay rate of the modes in the band.
     pub decay_time_s: f64,
 }
 
 impl WithActuators {
-    /// The modes up to the top of the band with the actuators on the sheet; `None` if no actuator loads it, or no mode is in the band.
+    /// Computes the modes up to the top of the band with the actuators on the sheet; `None` if no actuator
+    /// loads the sheet, or no mode is in the band.
     ///
     /// # Errors
     /// Those of [`loaded_modes`].

@@ -10,17 +10,19 @@ const RADII: usize = 5;
 /// shorter waves.
 const DIRECTIONS: usize = 16;
 
-/// Number of rings, up to the rim, from which the slope at a rim is computed. More are exact for shorter waves, with points
-/// in proportion.
+/// Number of rings, up to the rim of a disc, from which the slope at the rim is computed. More rings are
+/// exact for shorter waves, with points in proportion.
 const RINGS: usize = 9;
-/// Number of points on each ring: enough for an exact mean around it for waves up to about k·radius = 8.
+/// Number of points on each ring: enough for an exact mean around the ring for waves up to about k·radius
+/// = 8.
 const RAYS: usize = 24;
 
 /// Number of Gauss points along a side of a rectangle. With twice this value, waves half as long are integrated as exactly.
 const ACROSS: usize = 10;
 
-/// Largest number of values of shapes that are read at once, a GiB of them. With twice this value, twice the memory, and fewer evaluations
-/// for thousands of footprints; results stay the same but for rounding.
+/// Largest number of values of mode shapes that are read at once: a GiB of them. With twice this value,
+/// twice the memory, and fewer evaluations for thousands of footprints; results stay the same but for
+/// rounding.
 const AT_ONCE: usize = 1 << 27;
 
 /// A contact area on the sheet as quadrature points with weights. A force F over it excites mode m with the modal force
@@ -32,12 +34,13 @@ pub struct Footprint {
 }
 
 impl Footprint {
-    /// A single point (m), of weight 1.
+    /// A contact at a single point (m), with weight 1.
     pub fn point(at: Point) -> Self {
         Self { points: vec![(at, 1.0)] }
     }
 
-    /// A contact of uniform pressure over a disc of some radius (m). A part of the disc beyond the rim carries nothing.
+    /// A contact of uniform pressure over a disc of some radius (m). A part of the disc beyond the rim of
+    /// the sheet carries no pressure.
     ///
     /// Exact for mode shapes that are polynomials of degree 9 in x and y; for waves with k·radius up to 5 the error is below 1e-6.
     pub fn disc(at: Point, radius: f64, outline: &Outline) -> Self {
@@ -75,8 +78,9 @@ impl Footprint {
         Self { points: unripple_plates::gauss(count.max(1)).into_iter().map(along).collect() }
     }
 
-    /// The outward slope integrated along the rim of a disc of some radius (m), ∮ ∂u/∂n ds = ∫ ∇²u dA, which a round piezo patch
-    /// acts on and senses. The weights are dimensionless and sum to 0.
+    /// A footprint that reads the outward slope integrated along the rim of a disc of some radius (m), ∮
+    /// ∂u/∂n ds = ∫ ∇²u dA: the motion that a round piezo patch drives and senses. The weights are
+    /// dimensionless and sum to 0.
     ///
     /// The mean of u around a circle of radius r is an even function of r. It is taken on rings inside the disc, so that no points
     /// beyond the rim are needed; the slope at the rim is that of the polynomial in r² through these means. For plane waves of
@@ -97,8 +101,8 @@ impl Footprint {
         Self { points: squares.iter().zip(slopes).flat_map(ring).collect() }
     }
 
-    /// A contact of uniform pressure over a rectangle of some width and height (m), turned by an angle (radians, anticlockwise) about
-    /// its centre, which lies on the sheet as a whole.
+    /// A contact of uniform pressure over a rectangle of some width and height (m), turned by an angle
+    /// (radians, anticlockwise) about its centre. The whole rectangle must lie on the sheet.
     ///
     /// By Gauss quadrature, exact for polynomials of degree 19 along each side; for waves with k·side up to 16 the error is below 1e-5.
     pub fn rectangle(at: Point, [width, height]: [f64; 2], angle: f64) -> Self {
@@ -112,8 +116,9 @@ impl Footprint {
         Self { points: nodes.iter().flat_map(row).collect() }
     }
 
-    /// The outward slope integrated along the rim of a rectangle, ∮ ∂u/∂n ds = ∫ ∇²u dA, which a rectangular piezo patch acts on and
-    /// senses. Width, height and angle as for [`rectangle`](Self::rectangle). The weights are dimensionless and sum to 0.
+    /// A footprint that reads the outward slope integrated along the rim of a rectangle, ∮ ∂u/∂n ds = ∫ ∇²u
+    /// dA: the motion that a rectangular piezo patch drives and senses. Width, height and angle as for
+    /// [`rectangle`](Self::rectangle). The weights are dimensionless and sum to 0.
     ///
     /// Across each pair of opposite sides, the sum of both outward slopes is that of the even part of u, taken from a polynomial in
     /// the squared distance from the middle as in [`rim_slope`](Self::rim_slope); along them by Gauss quadrature. For plane waves of
@@ -177,7 +182,8 @@ impl Footprint {
     }
 }
 
-/// The first of some footprints, as many as have up to `most` points together, but at least one.
+/// The longest list of footprints from the start of `footprints` that have at most `most` points together,
+/// but at least one footprint.
 fn together(footprints: &[Footprint], most: usize) -> &[Footprint] {
     let mut points = 0;
     let fit = footprints.iter().take_while(|footprint| {
@@ -187,18 +193,19 @@ fn together(footprints: &[Footprint], most: usize) -> &[Footprint] {
     &footprints[..fit.count().max(1)]
 }
 
-/// Chebyshev's nodes of (r/radius)² from 0 to 1, both ends among them.
+/// Chebyshev nodes of (r/radius)² from 0 to 1, including both ends.
 fn lobatto_squares() -> Vec<f64> {
     (0..=RINGS).map(|i| 0.5 * (1.0 - (PI * i as f64 / RINGS as f64).cos())).collect()
 }
 
-/// A place relative to a centre, in axes turned by an angle (radians, anticlockwise).
+/// The point with coordinates (m) relative to a centre in axes turned by an angle (radians, anticlockwise).
 fn turned(centre: Point, [x, y]: [f64; 2], angle: f64) -> Point {
     let (sin, cos) = angle.sin_cos();
     Point::new(centre.x + x * cos - y * sin, centre.y + x * sin + y * cos)
 }
 
-/// Weights of the values at nodes from 0 to 1 in the slope, at the last node 1, of the polynomial through them.
+/// Weights of the values at `nodes` from 0 to 1 that give the slope, at the last node 1, of the polynomial
+/// through these values.
 fn slopes_at_end(nodes: &[f64]) -> Vec<f64> {
     let last = nodes.len() - 1;
     let others = |i: usize| (0..nodes.len()).filter(move |j| *j != i);

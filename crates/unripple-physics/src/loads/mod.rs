@@ -8,16 +8,17 @@ use crate::PhysicsError;
 use unripple_core::{Contact, Outline, require};
 use unripple_linalg::c64;
 
-/// For R/L from this on, in 1/s, a coil's inductance is neglected, so that its current follows its voltage at once; at 3 kHz
-/// this is a relative error of 2e-5 of the coil's force. With twice this value, the error is half as large.
+/// Ratio R/L, in 1/s, from which on a coil's inductance is neglected, so that its current follows its
+/// voltage without delay; at 3 kHz the relative error of the coil's force is 2e-5. With twice this value,
+/// the error is half as large.
 const AT_ONCE: f64 = 1e9;
 
-/// A lumped load on the sheet at one contact: a mass that moves with it, a damper and a spring to the ground, and optionally a coil and
-/// a housing. Its mechanical impedance is Z(s) = μs + β + κ/s + X(s), with X that of coil and housing ([`Load::reaction`]), which is
-/// passive for non-negative values.
+/// A lumped load on the sheet at one contact: a mass that moves with the contact, a damper and a spring to
+/// the ground, and optionally a coil and a housing. Its mechanical impedance is Z(s) = μs + β + κ/s + X(s),
+/// with X the impedance of coil and housing ([`Load::reaction`]); it is passive for non-negative values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
-    /// Contact with the sheet, as points and weights.
+    /// Contact of the load with the sheet, as quadrature points and weights.
     pub footprint: Footprint,
     /// Mass μ, in kg.
     pub mass: f64,
@@ -28,8 +29,9 @@ pub struct Load {
     /// A coil closed by a voltage source, in which the motion of the contact, relative to the housing if there is one, drives a
     /// current; `None` for no coil.
     pub circuit: Option<Circuit>,
-    /// A housing that hangs on the contact. The coil, and the force of the actuator that has this load, then act between it and the
-    /// contact, over the load's footprint; `None` where they act against the ground.
+    /// A housing that hangs on the contact by a spring. The coil, and the force of the actuator that has
+    /// this load, then act between the housing and the contact, over the load's footprint; with `None`,
+    /// they act between the ground and the contact.
     pub housing: Option<Housing>,
 }
 
@@ -40,11 +42,11 @@ pub struct Housing {
     pub mass: f64,
     /// Damping c between the housing and the sheet, in N·s/m.
     pub damping: f64,
-    /// Stiffness k of the spring between them, in N/m.
+    /// Stiffness k of the spring between the housing and the sheet, in N/m.
     pub stiffness: f64,
 }
 
-/// The electrical circuit of a coil in a magnet's field whose terminals are held at a voltage.
+/// The electrical circuit of a coil in a magnet's field whose terminals are driven by a voltage source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Circuit {
     /// Force constant bl, in N/A, which is also the electromotive force per velocity, in V·s/m.
@@ -74,16 +76,18 @@ impl Load {
         s * self.mass + self.damping + s.inv() * self.stiffness + self.reaction(s)
     }
 
-    /// Mechanical impedance of coil and housing alone at the complex frequency `s` (1/s), in N·s/m: (bl)²/(R + Ls) of a coil on the
-    /// ground, and 1/(1/Ms + 1/T), T = c + k/s + (bl)²/(R + Ls), of a housing.
+    /// Mechanical impedance of coil and housing alone at the complex frequency `s` (1/s), in N·s/m:
+    /// (bl)²/(R + Ls) for a coil between contact and ground; 1/(1/Ms + 1/T), with T = c + k/s + (bl)²/(R +
+    /// Ls), for a housing.
     pub fn reaction(&self, s: c64) -> c64 {
         let coil = Circuit::reaction(self.circuit.as_ref(), s);
         self.housing.map_or(coil, |housing| housing.reaction(coil, s))
     }
 
-    /// Share of the force between housing and contact that acts on a contact held still, at the complex frequency `s` (1/s),
-    /// dimensionless: Ms/(Ms + T) with T as in [`Load::reaction`], since spring, damper and coil pass the motion of the housing back;
-    /// 1 without a housing. It is also the velocity of a moving contact relative to the housing, as a share of its own.
+    /// Share of the force between housing and contact that acts on a contact held still, at the complex
+    /// frequency `s` (1/s), dimensionless: Ms/(Ms + T) with T as in [`Load::reaction`], since spring,
+    /// damper and coil pass the motion of the housing back; 1 without a housing. By reciprocity, it is also
+    /// the velocity of a moving contact relative to the housing, over the velocity of the contact.
     pub fn transmission(&self, s: c64) -> c64 {
         let coil = Circuit::reaction(self.circuit.as_ref(), s);
         self.housing.map_or(c64::new(1.0, 0.0), |housing| housing.transmission(coil, s))
@@ -96,8 +100,9 @@ impl Load {
         self.mass != 0.0 || self.damping != 0.0 || self.stiffness != 0.0 || coil || tied
     }
 
-    /// The load as two without a housing: the one between contact and ground, and the one between contact and housing. The first is
-    /// `None` if there is nothing of it beside a housing, the second if there is no housing.
+    /// The load split into two without a housing: the part between contact and ground, and the part between
+    /// contact and housing. The first is `None` if the load has a housing and no part to the ground, the
+    /// second if it has no housing.
     pub(crate) fn split(&self) -> [Option<Self>; 2] {
         let Some(Housing { damping, stiffness, .. }) = self.housing else {
             return [Some(self.clone()), None];
@@ -112,12 +117,12 @@ impl Load {
         self.circuit.filter(Circuit::is_inductive)
     }
 
-    /// Damping (bl)²/R by a coil of negligible inductance, in N·s/m; 0 for any other.
+    /// Damping (bl)²/R by a coil of negligible inductance, in N·s/m; 0 without such a coil.
     pub(crate) fn direct_coil_damping(&self) -> f64 {
         self.direct_coil_force() * self.circuit.map_or(0.0, |circuit| circuit.force_constant)
     }
 
-    /// Force per volt bl/R of a coil of negligible inductance, in N/V; 0 for any other.
+    /// Force per volt bl/R of a coil of negligible inductance, in N/V; 0 without such a coil.
     pub(crate) fn direct_coil_force(&self) -> f64 {
         match self.circuit {
             Some(circuit) if self.inductive_coil().is_none() => circuit.force_constant / circuit.resistance,
@@ -145,12 +150,14 @@ impl Load {
 }
 
 impl Housing {
-    /// Weight of the housing's coordinate, √M times its displacement, in the extension of its spring, in 1/√kg.
+    /// Extension of the housing's spring per unit of the housing's coordinate (√M times its displacement),
+    /// in 1/√kg.
     pub(crate) fn weight(&self) -> f64 {
         -1.0 / self.mass.sqrt()
     }
 
-    /// Mechanical impedance (N·s/m) of the housing as the contact feels it, for that of the coil, `coil`.
+    /// Mechanical impedance (N·s/m) of the housing as seen from the contact, given the impedance `coil` of
+    /// the coil.
     fn reaction(&self, coil: c64, s: c64) -> c64 {
         let (inert, tie) = (s * s * self.mass, self.tie(coil, s));
         s * self.mass * tie / (inert + tie)
@@ -162,14 +169,15 @@ impl Housing {
         inert / (inert + self.tie(coil, s))
     }
 
-    /// Force per displacement between contact and housing, in N/m; in this form nothing is divided by s.
+    /// Dynamic stiffness between contact and housing (force per displacement), in N/m; in this form nothing
+    /// is divided by s.
     fn tie(&self, coil: c64, s: c64) -> c64 {
         s * (coil + self.damping) + self.stiffness
     }
 }
 
 impl Circuit {
-    /// Mechanical impedance (bl)²/(R + Ls) of a coil whose other side is held still, in N·s/m; 0 without a coil.
+    /// Mechanical impedance (bl)²/(R + Ls) between a coil and its magnet, in N·s/m; 0 without a coil.
     pub(crate) fn reaction(coil: Option<&Self>, s: c64) -> c64 {
         coil.map_or(c64::new(0.0, 0.0), |coil| {
             coil.admittance(s) * (coil.force_constant * coil.force_constant)
@@ -181,7 +189,7 @@ impl Circuit {
         self.resistance < AT_ONCE * self.inductance
     }
 
-    /// Electrical admittance 1/(R + Ls) of the coil at rest, at the complex frequency `s` (1/s), in A/V.
+    /// Electrical admittance 1/(R + Ls) of the coil held still, at the complex frequency `s` (1/s), in A/V.
     pub fn admittance(&self, s: c64) -> c64 {
         (s * self.inductance + self.resistance).inv()
     }

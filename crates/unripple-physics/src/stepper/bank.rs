@@ -4,11 +4,11 @@ use super::small::{Inverse, OCT, Oct, Small, Solution, add, get, octs, registers
 use crate::Circuit;
 use pulp::Simd;
 
-/// Decay per step of the spurious root, at -0.8, of the two-step form of a mass. Nearer to 1, an alternation from
-/// sample to sample decays more slowly.
+/// Factor per step, -0.8, by which the spurious root of the two-step formula for a mass decays. Nearer to
+/// 1, an alternation from sample to sample decays more slowly.
 const MEMORY: f64 = 0.8;
 
-/// A current below this (A) is set to zero, so that none becomes denormal, which is slow to
+/// Currents below this value (A) are set to zero, so that none becomes a denormal number, which is slow to
 /// compute with. It has no effect on results.
 const DEAD: f64 = 1e-200;
 
@@ -21,26 +21,28 @@ pub(super) struct Burden {
     pub(super) damping: f64,
     /// Stiffness κ to the ground, in N/m.
     pub(super) stiffness: f64,
-    /// A coil driven by a voltage, if there is one.
+    /// A coil driven by a voltage; `None` without one.
     pub(super) circuit: Option<Circuit>,
-    /// Whether the load belongs to the twin of a housing, whose energy is not the surface's.
+    /// Whether the load belongs to the twin of a housing (a reference copy, see `wiring.rs`), whose energy
+    /// is not counted as the surface's.
     pub(super) twin: bool,
 }
 
-/// The loads at eight ports: their coefficients for one step, and their states.
+/// The loads at eight ports: their coefficients for one time step, and their states.
 ///
 /// Over a step the force on the sheet is `F = b - D² Δu`, with Δu the displacement of the port and b from the state before.
 #[derive(Clone, Copy, Debug, Default)]
 struct Loads {
-    /// Coefficients of b/D: of the spring's extension, of the mass's two states and of the current.
+    /// Coefficients of b/D for the spring's extension (`spring`), the mass's two states (`recall`) and the
+    /// current (`carry`).
     spring: Oct,
     recall: [Oct; 2],
     carry: Oct,
-    /// Coefficients by which the states advance.
+    /// Coefficients with which the states advance by one step.
     memory: Oct,
     fade: Oct,
     induce: Oct,
-    /// 1/√μ if impulses are shared with masses; else 0.
+    /// The factor 1/√μ if impulses are shared with masses; else 0.
     lightness: Oct,
     /// Coefficients of the energy: stiffness, inductance, and the quadratic form of the mass.
     stiffness: Oct,
@@ -48,36 +50,38 @@ struct Loads {
     masses: [Oct; 3],
     /// Extension of the spring, in m.
     extension: Oct,
-    /// Filtered velocity of the mass after the last step and after the one before, in m/s.
+    /// Filtered velocity of the mass after the last step and after the step before, in m/s.
     pace: [Oct; 2],
-    /// The current, in A: the part that the drive causes in a coil at rest, and the part that the motion drives.
+    /// The two parts of the coil's current, in A: what the drive causes in a coil at rest (`still`), and
+    /// what the motion drives (`driven`).
     still: Oct,
     driven: Oct,
-    /// Work done on the loads since it was last set to zero, in J.
+    /// Work done on the loads since this value was last reset, in J.
     work: Oct,
 }
 
-/// The loads at all ports, with zeros for ports without load.
+/// The loads at all ports; coefficients are zero at ports without a load.
 #[derive(Clone, Debug)]
 pub(super) struct Bank {
     loads: Vec<Loads>,
-    /// The factor D, and √μ if impulses are shared with masses.
+    /// The factor D of each port (`depth`), and √μ if impulses are shared with masses (`heft`).
     depth: Vec<Oct>,
     heft: Vec<Oct>,
     dt: f64,
     right: Vec<Oct>,
-    /// Forces over the next step, and the displacement of the ports by them.
+    /// Forces over the next step, and the displacement of the ports that they cause.
     forces: Solution,
     /// Displacement of the ports over the next step.
     moved: Vec<Oct>,
-    /// Impulses shared with masses, and the velocities that they give.
+    /// Impulses shared with masses, and the changes of velocity that they cause.
     shares: Solution,
-    /// Whether masses take part in impulses at once.
+    /// Whether masses change their velocity instantly with an impulse on the sheet.
     shared: bool,
 }
 
 impl Bank {
-    /// Storage for loads at `size` ports, with steps of `dt` seconds; `shared` if masses take part in impulses at once.
+    /// Storage for loads at `size` ports, with steps of `dt` seconds; `shared` if masses change their
+    /// velocity instantly with an impulse.
     pub(super) fn new(size: usize, dt: f64, shared: bool) -> Self {
         let zeros = vec![[0.0; OCT]; octs(size)];
         Self {
@@ -93,7 +97,7 @@ impl Bank {
         }
     }
 
-    /// Puts a load at rest on a port, given by its index.
+    /// Attaches a load, at rest, to the port with this index.
     pub(super) fn set(&mut self, port: usize, burden: &Burden) {
         let (dt, shared) = (self.dt, self.shared);
         let (loads, lane) = (&mut self.loads[port / OCT], port % OCT);
@@ -122,7 +126,7 @@ impl Bank {
         self.heft[port / OCT][lane] = heft;
     }
 
-    /// Removes one of `count` ports; those behind it move up.
+    /// Removes the port with this index from `count` ports; the ports behind it move up by one.
     pub(super) fn remove(&mut self, port: usize, count: usize) {
         for vector in [&mut self.depth, &mut self.heft] {
             let flat = vector.as_flattened_mut();
@@ -139,7 +143,7 @@ impl Bank {
         }
     }
 
-    /// The factor D of each port, the square root of its stiffness over a step, in √(N/m).
+    /// The factor D of each port, the square root of the load's effective stiffness over a step, in √(N/m).
     #[inline(always)]
     pub(super) fn depth(&self) -> &[f64] {
         self.depth.as_flattened()
@@ -178,24 +182,25 @@ impl Bank {
         self.loads[port / OCT].extension[port % OCT]
     }
 
-    /// Work done on a port's load since it was last set to zero, in J.
+    /// Work done on a port's load since the last reset, in J.
     pub(super) fn work(&self, port: usize) -> f64 {
         self.loads[port / OCT].work[port % OCT]
     }
 
-    /// Force on the sheet of each port, in N.
+    /// Force on the sheet at each port over the next step, in N.
     #[inline(always)]
     pub(super) fn forces(&self) -> &[f64] {
         self.forces.scaled.as_flattened()
     }
 
-    /// Whether any mass takes part in impulses.
+    /// Whether the velocity of any mass changes instantly with an impulse.
     pub(super) fn shares(&self) -> bool {
         self.heft().iter().any(|heft| *heft > 0.0)
     }
 
-    /// Brings masses and their ports to the same velocity: returns the impulses on the sheet that do so, in N·s, and the changes
-    /// of the ports' velocities, given the velocities before.
+    /// Makes the velocity of each mass equal to that of its port after impulses: returns the impulses on
+    /// the sheet that do so, in N·s, and the resulting changes of the ports' velocities. `velocity` holds
+    /// the ports' velocities before.
     #[inline(always)]
     pub(super) fn share<S: Simd>(
         &mut self,
@@ -231,7 +236,8 @@ impl Bank {
         (impulse, change)
     }
 
-    /// Computes the forces over the next step; `free` is the displacement of the ports without them, in m.
+    /// Computes the loads' forces over the next step; `free` is the displacement of the ports without these
+    /// forces, in m.
     #[inline(always)]
     pub(super) fn solve<S: Simd>(
         &mut self,
@@ -259,7 +265,7 @@ impl Bank {
         add(simd, &mut self.moved, &self.forces.image);
     }
 
-    /// Advances all loads by the step.
+    /// Advances the states of all loads by one step.
     #[inline(always)]
     pub(super) fn advance<S: Simd>(&mut self, simd: S) {
         let rate = simd.splat_f64s(1.0 / self.dt);
@@ -305,7 +311,7 @@ impl Bank {
 }
 
 impl Loads {
-    /// All fields, for operations on each.
+    /// All fields, for operations on each of them.
     fn fields(&mut self) -> [&mut Oct; 19] {
         let [r0, r1] = &mut self.recall;
         let [m0, m1, m2] = &mut self.masses;
@@ -329,19 +335,19 @@ impl Loads {
 /// `p = (1 - e^{-θ})/θ`.
 #[derive(Clone, Copy, Debug, Default)]
 struct Coil {
-    /// Contribution of the coil to D², in N/m.
+    /// Contribution of the coil to D² (the load's effective stiffness over a step), in N/m.
     square: f64,
-    /// Mean force per initial current.
+    /// Mean force over the step per initial current, in N/A.
     carry: f64,
     /// Share of the initial current that is left after the step.
     fade: f64,
-    /// Decrease of the current per displacement.
+    /// Decrease of the current over the step per displacement of the port, in A/m.
     induce: f64,
     inductance: f64,
 }
 
 impl Coil {
-    /// A coil over steps of `dt` (s).
+    /// The coefficients of a coil for steps of `dt` (s).
     fn of(circuit: &Circuit, dt: f64) -> Self {
         let Circuit { force_constant: bl, resistance, inductance } = *circuit;
         let theta = resistance * dt / inductance;

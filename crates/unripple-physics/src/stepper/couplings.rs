@@ -5,39 +5,41 @@ use super::lanes::{Rows, grams};
 use super::small::{Inverse, Small};
 use pulp::Simd;
 
-/// The composition of a port: two rows of weights, the columns of the tiles that hold them, and their shares.
+/// The composition of a port from two rows of weights: the rows, the columns of the tiles that hold copies
+/// of them, and the share of each.
 ///
 /// A port that does not move has a single row and column, which are given twice, with shares 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Part {
     /// Indices of the two rows of weights.
     pub(super) rows: [usize; 2],
-    /// Indices of their columns in the tiles.
+    /// Indices of the columns that hold these rows in the tiles.
     pub(super) columns: [usize; 2],
-    /// Share of each, from 0 to 1.
+    /// Share of each row in the port's weights, from 0 to 1.
     pub(super) shares: [f64; 2],
 }
 
 /// The effect of ports on each other over a step, and the inverses that the loads need.
 #[derive(Clone, Debug)]
 pub(super) struct Couplings {
-    /// Between rows of weights, row by row: velocity after an impulse, displacement after an impulse, displacement after a
-    /// held force.
+    /// For each pair of rows of weights, as a matrix row by row: velocity after a unit impulse,
+    /// displacement after a unit impulse, displacement after a constant unit force.
     grams: [Vec<f64>; 3],
     rows: usize,
-    /// These couplings between ports.
+    /// The couplings of `grams` between ports instead of rows.
     between: [Small; 3],
     /// The composition of each port.
     pub(super) parts: Vec<Part>,
     /// Number of ports that never change, which come first.
     fixed: usize,
-    /// Inverses for the loads' forces, and for impulses shared with masses.
+    /// Inverse matrices for the loads' forces, and for impulses shared with masses.
     forces: Inverse,
     impulses: Inverse,
 }
 
 impl Couplings {
-    /// Couplings of zero between `rows` rows, for up to `ports` ports, the first of which are given and never change.
+    /// Couplings of zero between `rows` rows, for up to `ports` ports; the first ports are `fixed` and
+    /// never change.
     pub(super) fn new(rows: usize, ports: usize, fixed: &[Part]) -> Self {
         let mut parts = Vec::with_capacity(ports);
         parts.extend_from_slice(fixed);
@@ -58,26 +60,26 @@ impl Couplings {
         self.parts.len()
     }
 
-    /// Couplings between ports, ports x ports: velocity after impulses, displacement after impulses, displacement after
-    /// constant forces.
+    /// Couplings between ports, ports x ports: velocity after a unit impulse, displacement after a unit
+    /// impulse, displacement after a constant unit force.
     #[inline(always)]
     pub(super) fn between(&self) -> &[Small; 3] {
         &self.between
     }
 
-    /// The inverse for the loads' forces.
+    /// The inverse matrix that gives the loads' forces.
     #[inline(always)]
     pub(super) fn forces(&self) -> &Inverse {
         &self.forces
     }
 
-    /// The inverse for impulses shared with masses.
+    /// The inverse matrix that gives the impulses shared with masses.
     #[inline(always)]
     pub(super) fn impulses(&self) -> &Inverse {
         &self.impulses
     }
 
-    /// Computes the couplings of a row with the first `others` rows.
+    /// Computes the couplings of one row of weights with the first `others` rows.
     #[inline(always)]
     pub(super) fn measure<S: Simd>(
         &mut self,
@@ -108,7 +110,7 @@ impl Couplings {
         self.follow(simd, bank);
     }
 
-    /// Computes the couplings of a port, given by its index, with all ports.
+    /// Computes the couplings of the port with this index with all ports.
     #[inline(always)]
     pub(super) fn couple(&mut self, port: usize) {
         let part = self.parts[port];

@@ -6,32 +6,36 @@ use super::lanes::{
 use pulp::{Simd, as_arrays, as_arrays_mut};
 use unripple_core::Pole;
 
-/// Number of terms of the series for slow modes: the last is below 1e-20 of the first. Twice as many terms change no sum.
+/// Number of terms of the power series for slow modes: the last term is below 1e-20 of the first. Twice as
+/// many terms change no sum.
 const TERMS: usize = 30;
 
-/// Number of groups of modes processed together: as many as the first-level cache holds with their tiles.
+/// Number of groups of sixteen modes processed together: as many as fit into the first-level cache with
+/// their weights.
 const TOGETHER: usize = 8;
 
-/// Motion below this is set to zero, since denormal numbers would slow the processor down.
+/// Modal displacements and velocities below this value are set to zero, since denormal numbers would slow
+/// the processor down.
 const SILENCE: f64 = 1e-200;
 
-/// Coefficients of the modes for one step: [`step::ROWS`] values of sixteen modes, then those of the next sixteen.
+/// Coefficients of the modes for one step: [`step::ROWS`] values of sixteen modes each, then those of the
+/// next sixteen.
 ///
 /// With the force `f` held and `p = f - ω² u`: `u⁺ = u + strike·v + push·p` and `v⁺ = hold·v + strike·p`.
 pub(super) mod step {
     /// The squared angular frequency ω², in 1/s².
     pub(in super::super) const SQUARE: usize = 0;
-    /// Displacement after a unit impulse, and velocity after a unit force.
+    /// Displacement after a unit impulse; also the velocity after a unit force held over the step.
     pub(in super::super) const STRIKE: usize = 1;
-    /// Velocity after a unit velocity, dimensionless.
+    /// Velocity at the end of the step per unit of initial velocity, dimensionless.
     pub(in super::super) const HOLD: usize = 2;
-    /// Displacement after a unit force.
+    /// Displacement after a unit force held over the step.
     pub(in super::super) const PUSH: usize = 3;
     /// Number of values for each mode.
     pub(in super::super) const ROWS: usize = 4;
 }
 
-/// Forces on some groups of modes, or their displacement over a step; aligned to cache lines.
+/// Forces on groups of modes, or their displacement over a step; aligned to cache lines.
 #[derive(Default)]
 #[repr(align(64))]
 struct ModeBlock([Lanes; TOGETHER]);
@@ -59,7 +63,7 @@ impl PortSums {
         }
     }
 
-    /// Adds the contributions of some groups of modes.
+    /// Adds the contributions of groups of modes to the sums.
     #[inline(always)]
     fn add<S: Simd>(
         &mut self,
@@ -94,7 +98,7 @@ pub(super) struct PortForces<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Probes {
     weights: Rows,
-    /// Whether each reads displacement rather than velocity.
+    /// For each probe, whether it reads displacement rather than velocity.
     displaced: Vec<bool>,
     sums: Vec<Lanes>,
     /// The last reading of each probe, in m/s or m.
@@ -102,20 +106,21 @@ pub(super) struct Probes {
 }
 
 impl Probes {
-    /// Probes of displacement or velocity, given the places' weights, places x modes; `modes` is the number of all modes, of which the
-    /// last ones may have no weights.
+    /// Probes of displacement or velocity. `rows` holds the modes' weights for each probe, probes x modes;
+    /// `modes` is the number of all modes, of which the last ones may have no weights.
     pub(super) fn new(rows: &[Vec<f64>], displaced: Vec<bool>, modes: usize) -> Self {
         let mut weights = Rows::zeros(rows.len(), modes);
         rows.iter().enumerate().for_each(|(row, values)| weights.fill(row, values));
         Self { weights, displaced, sums: vec![[0.0; LANES]; rows.len()], heard: vec![0.0; rows.len()] }
     }
 
-    /// Replaces the weights, one per mode, of a probe, given by its index.
+    /// Replaces the weights, one per mode, of the probe with this index.
     pub(super) fn place(&mut self, probe: usize, weights: &[f64]) {
         self.weights.fill(probe, weights);
     }
 
-    /// Adds the contributions of the groups of modes from the `first` on; starts from zero if that is group 0.
+    /// Adds the contributions of groups of modes, beginning at group `first`, to the readings; starts from
+    /// zero if that is group 0.
     #[inline(always)]
     fn read_out<S: Simd>(&mut self, simd: S, first: usize, u: &[Lanes], v: &[Lanes]) {
         for (probe, sum) in self.sums.iter_mut().enumerate() {
@@ -127,7 +132,7 @@ impl Probes {
         }
     }
 
-    /// Adds up the partial sums: one reading per probe, in m/s or m.
+    /// Adds up the partial sums of each probe to its reading, in m/s or m.
     #[inline(always)]
     pub(super) fn reduce<S: Simd>(&mut self, simd: S) -> &[f64] {
         total(simd, &self.sums, &mut self.heard);
@@ -141,7 +146,7 @@ pub(super) struct Field {
     displacement: Rows,
     velocity: Rows,
     steps: Rows,
-    /// The coefficients `STRIKE` and `PUSH` again as rows, for sums over modes.
+    /// Copies of the coefficients `STRIKE` and `PUSH` as rows, for sums over modes.
     pub(super) factors: Rows,
 }
 
@@ -156,7 +161,7 @@ impl Field {
         field
     }
 
-    /// Sets the poles for steps of `dt` (s); displacement and velocity stay.
+    /// Sets the poles for steps of `dt` (s); displacement and velocity stay as they are.
     pub(super) fn tune(&mut self, poles: impl Iterator<Item = Pole>, dt: f64) {
         for (m, pole) in poles.enumerate() {
             let [[_, strike], [_, hold]] = pole.step(dt);
@@ -205,8 +210,8 @@ impl Field {
         }
     }
 
-    /// One sweep over the modes: applies impulses, reads probes, advances all modes by one step under the forces, and sums up
-    /// the motion of the columns afterwards.
+    /// One pass over the modes: applies impulses, reads probes, advances all modes by one step under the
+    /// forces, and sums up the resulting motion of the columns.
     #[inline(always)]
     pub(super) fn sweep<S: Simd>(
         &mut self,
@@ -259,7 +264,7 @@ impl Field {
         }
     }
 
-    /// Sets motion below [`SILENCE`] to zero, which can only lower the energy.
+    /// Sets modal displacements and velocities below [`SILENCE`] to zero, which can only lower the energy.
     #[inline(always)]
     pub(super) fn silence(&mut self) {
         for x in self.displacement.row_mut(0).iter_mut().chain(self.velocity.row_mut(0)) {
@@ -278,8 +283,8 @@ impl Field {
     }
 }
 
-/// Advances some groups of modes by a step; `work` holds the forces on them, and afterwards their displacement over the next
-/// step without forces. Without `MOVE`, only the latter is computed.
+/// Advances groups of modes by a step. `work` holds the forces on the modes before, and their displacement
+/// over the next step without forces afterwards. With `MOVE` false, only that displacement is computed.
 #[inline(always)]
 fn advance<S: Simd, const MOVE: bool>(
     simd: S,

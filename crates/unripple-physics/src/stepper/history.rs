@@ -14,7 +14,7 @@ pub struct History {
     most: usize,
     /// Number of samples until the next state is recorded.
     wait: usize,
-    /// Number of samples that the surface had processed at the newest state.
+    /// Number of samples that the surface had processed when the newest state was recorded.
     newest: u64,
     /// Number of states recorded so far.
     count: u64,
@@ -23,7 +23,8 @@ pub struct History {
 }
 
 impl History {
-    /// A ring buffer for `most` states of `modes` modes, one after every `stride` samples, begun at sample `now`.
+    /// A ring buffer for at most `most` states of `modes` modes, one recorded after every `stride` samples;
+    /// `now` is the number of samples processed before the first interval.
     pub(super) fn new(modes: usize, stride: usize, most: usize, now: u64) -> Result<Self, PhysicsError> {
         require("samples from one state to the next", stride > 0, "at least 1", stride as f64)?;
         let room = (1..=1 << 20).contains(&most);
@@ -33,12 +34,12 @@ impl History {
         Ok(Self { modes, stride, most, wait: stride, newest: now, count: 0, displacement: zeros, velocity })
     }
 
-    /// Number of samples between one state and the next.
+    /// Number of samples between one recorded state and the next.
     pub fn stride(&self) -> usize {
         self.stride
     }
 
-    /// Number of states stored.
+    /// Number of states that the buffer holds now.
     pub fn len(&self) -> usize {
         self.count.min(self.most as u64) as usize
     }
@@ -48,13 +49,13 @@ impl History {
         self.count == 0
     }
 
-    /// Number of samples that the surface had processed at the newest state.
+    /// Number of samples that the surface had processed when the newest state was recorded.
     pub fn newest(&self) -> u64 {
         self.newest
     }
 
-    /// Displacement (m·√kg) and velocity (√J) of every mode in the state `back` places before the newest; `None` if it is not
-    /// stored.
+    /// Displacement (m·√kg) and velocity (√J) of every mode in a recorded state: 0 for `back` is the newest
+    /// state, 1 the one before it; `None` if the state is not stored.
     pub fn state(&self, back: usize) -> Option<(&[f32], &[f32])> {
         if back >= self.len() {
             return None;
@@ -63,12 +64,12 @@ impl History {
         Some((&self.displacement[slot..slot + self.modes], &self.velocity[slot..slot + self.modes]))
     }
 
-    /// Number of samples until the next state is due.
+    /// Number of samples until the next state is recorded.
     pub(super) fn wait(&self) -> usize {
         self.wait
     }
 
-    /// Advances by `frames` samples to the given state, and records it if it is due.
+    /// Counts `frames` samples as processed, and records the given state if an interval is complete.
     pub(super) fn take(&mut self, frames: usize, displacement: &[f64], velocity: &[f64]) {
         self.wait -= frames.min(self.wait);
         if self.wait > 0 {

@@ -9,10 +9,10 @@ use pulp::{Simd, as_arrays};
 /// doubled, more zeros are processed.
 pub(super) const LANES: usize = 16;
 
-/// A value for each of sixteen modes.
+/// One value for each of sixteen modes.
 pub(super) type Lanes = [f64; LANES];
 
-/// Alignment of rows in bytes, that of a cache line: reads across two lines cost twice.
+/// Alignment of rows in bytes, that of a cache line: reads that cross a cache line take twice as long.
 const LINE: usize = 64;
 
 /// Rows of values for each mode, padded with zeros.
@@ -53,7 +53,7 @@ impl Rows {
     }
 }
 
-/// Weights in columns: sixteen modes of every column, then the next sixteen.
+/// Weights stored in columns: the values of sixteen modes for every column, then those of the next sixteen.
 #[derive(Clone, Debug)]
 pub(super) struct Tiles {
     data: Vec<f64>,
@@ -71,7 +71,7 @@ impl Tiles {
         Self { data, first, groups, columns: 0 }
     }
 
-    /// Changes the number of columns in use, which must all be set afterwards.
+    /// Changes the number of columns in use, whose weights must all be set afterwards.
     pub(super) fn resize(&mut self, columns: usize) {
         self.columns = columns;
     }
@@ -92,14 +92,15 @@ impl Tiles {
         }
     }
 
-    /// All weights, group of modes by group, column by column in each.
+    /// All weights: for each group of sixteen modes, column by column.
     #[inline(always)]
     pub(super) fn all(&self) -> &[Lanes] {
         as_arrays::<LANES, _>(&self.data[self.first..][..self.groups * self.columns * LANES]).0
     }
 }
 
-/// Adds the amounts on columns to the modes: `to[m] += Σ_k w_k[m] amounts[k]`, over the columns from the `first` on.
+/// Adds forces or impulses on columns to the modes: `to[m] += Σ_k w_k[m] amounts[k]`, over the columns from
+/// index `first` on.
 #[inline(always)]
 pub(super) fn gather<S: Simd>(
     simd: S,
@@ -131,7 +132,8 @@ pub(super) fn gather<S: Simd>(
     }
 }
 
-/// Does [`gather`] for two kinds of amounts at once: the first on all columns, the second on those from `first` on.
+/// Does what [`gather`] does for two arrays of amounts at once: the first acts on all columns, the second
+/// on those from index `first` on.
 #[inline(always)]
 pub(super) fn gather_both<S: Simd>(
     simd: S,
@@ -191,8 +193,8 @@ fn weigh<S: Simd>(simd: S, weights: &Lanes, amount: S::f64s, sums: &mut [S::f64s
     }
 }
 
-/// Adds the motion of some groups of modes to the columns: `sums[k] += Σ_m w_k[m] x[m]`, as sixteen partial sums each; `sums`
-/// are those of the columns from the `first` on.
+/// Adds the motion of groups of modes to the columns: `sums[k] += Σ_m w_k[m] x[m]`, as sixteen partial sums
+/// each; `sums` holds those of the columns from index `first` on.
 #[inline(always)]
 pub(super) fn accumulate<S: Simd>(
     simd: S,
@@ -231,7 +233,7 @@ pub(super) fn accumulate<S: Simd>(
     }
 }
 
-/// Does [`accumulate`] for two kinds of motion (m and m/s) and their sums at once.
+/// Does what [`accumulate`] does for two kinds of motion (m and m/s) and their sums at once.
 #[inline(always)]
 pub(super) fn accumulate_both<S: Simd>(
     simd: S,
@@ -268,7 +270,7 @@ pub(super) fn accumulate_both<S: Simd>(
     accumulate(simd, tiles, [columns, column], x[1], others.into_remainder());
 }
 
-/// Adds the motion of some groups of modes to the partial sums of a single row, like [`accumulate`].
+/// Adds the motion of groups of modes to the partial sums of a single row of weights, like [`accumulate`].
 #[inline(always)]
 pub(super) fn read_out<S: Simd>(simd: S, row: &[Lanes], x: &[Lanes], to: &mut Lanes) {
     let mut sum = begun::<S>(simd, to);
@@ -300,7 +302,8 @@ pub(super) fn vectors<S: Simd>() -> usize {
     LANES / S::F64_LANES
 }
 
-/// `Σ_m first[m] second[m]`, and the same sum with each of two factors: `Σ_m first[m] second[m] factor[m]`.
+/// The sum `Σ_m first[m] second[m]`, and that sum with each of two factors:
+/// `Σ_m first[m] second[m] factor[m]`.
 #[inline(always)]
 pub(super) fn grams<S: Simd>(simd: S, first: &[f64], second: &[f64], factors: [&[f64]; 2]) -> [f64; 3] {
     let [first, second] = [first, second].map(|row| S::as_simd_f64s(row).0);

@@ -3,7 +3,7 @@
 use super::Channel;
 use crate::Circuit;
 
-/// The port of a channel, and the factors of drive and sensor there.
+/// The port of a channel, and the factors from drive to motion and from motion to sensor signal there.
 ///
 /// A coil of inductance L driven by a voltage V gives the force bl·i with L di/dt + R i = V - bl·v. The sensor signal is the
 /// current j that only the motion drives through the coil, L dj/dt + R j = bl·v, which is a state of its own beside the current
@@ -13,9 +13,10 @@ use crate::Circuit;
 /// θ²/12 if the current is slow. It is equal for drive and sensor, which keeps responses reciprocal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lead {
-    /// Index of the port.
+    /// Index of the port at which the channel acts.
     pub(super) port: usize,
-    /// Index of the port of an exciter's twin, which has the same drive and whose signal is subtracted; `None` for other channels.
+    /// Index of the port of an exciter's twin (a copy of the housing without a sheet), which gets the same
+    /// drive and whose signal is subtracted; `None` for other channels.
     pub(super) twin: Option<usize>,
     /// Impulse (N·s) per unit of drive in one sample.
     pub(super) strike: f64,
@@ -28,7 +29,7 @@ pub(super) struct Lead {
 }
 
 impl Lead {
-    /// The factors of a channel at a port; `dt` is the length of a step, in s.
+    /// The factors of a channel for a port; `dt` is the length of a step, in s.
     pub(super) fn of(channel: &Channel, port: usize, rate: f64, dt: f64) -> Self {
         let gain = channel.gain;
         let struck = |share: f64| Self {
@@ -51,26 +52,26 @@ impl Lead {
         Self { jump: slow / (inductance * rate), driven: slow, ..struck(share * at_once) }
     }
 
-    /// The ports that the drive acts at.
+    /// The indices of the ports on which the drive acts: the channel's own port and that of a twin.
     #[inline(always)]
     pub(super) fn ports(&self) -> impl Iterator<Item = usize> {
         [Some(self.port), self.twin].into_iter().flatten()
     }
 
-    /// Whether any part of the drive acts on the sheet at once, as an impulse.
+    /// Whether any part of the drive acts on the sheet instantly, as an impulse.
     pub(super) fn strikes(&self) -> bool {
         self.strike != 0.0
     }
 
-    /// The sensor signal, in its unit, from the port's velocity (m/s) and the current (A, positive in the direction of the drive's)
-    /// that the motion drives through its coil.
+    /// The sensor signal, in the sensor's unit, from the port's velocity (m/s) and the current (A, positive
+    /// in the direction of the drive's current) that the motion drives through its coil.
     #[inline(always)]
     pub(super) fn hears(&self, velocity: f64, driven: f64) -> f64 {
         self.felt * velocity - self.driven * driven
     }
 }
 
-/// Share κ of a coil's drive that acts at once, from θ = R dt/L.
+/// Share κ of a coil's drive that acts instantly, from θ = R dt/L.
 fn sudden(theta: f64) -> f64 {
     let x = 0.5 * theta;
     // By its power series where the difference would cancel.

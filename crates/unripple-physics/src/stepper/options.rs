@@ -3,13 +3,16 @@
 /// Options of the simulation of a surface in the time domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepperOptions {
-    /// Largest number of fingers at once, those that are being lifted included.
+    /// Largest number of fingers on the surface at once, including those that are being lifted.
     pub max_fingers: usize,
-    /// Time over which the load of a finger is faded in when it is put down, and out when it is lifted, in s.
+    /// Time in s over which a finger's load is faded in when the finger is put down, and faded out when it
+    /// is lifted.
     pub fade: f64,
-    /// Time over which a finger that is moved changes from one contact to the next, in s.
+    /// Time in s over which the load of a finger that is moved is cross-faded from the old contact to the
+    /// new one.
     pub glide: f64,
-    /// Steps per sample. More steps reduce the error of loads; without loads one step is exact.
+    /// Number of time steps per sample. More steps reduce the error of loads; without loads one step is
+    /// exact.
     pub substeps: usize,
 }
 

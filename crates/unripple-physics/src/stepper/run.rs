@@ -7,17 +7,19 @@ use super::lanes::total;
 use super::small::{OCT, add};
 use pulp::{Simd, WithSimd};
 
-/// Number of samples between checks for values that have become too small: 21 ms at 48 kHz, so that the check costs
-/// little. With twice this value, denormal numbers that slow the processor stay up to twice as long.
+/// Number of samples between searches for values so small that they are set to zero: 21 ms at 48 kHz, so
+/// that the search costs little. With twice this value, denormal numbers that slow the processor stay up to
+/// twice as long.
 const SILENCE: u64 = 1024;
 
-/// The inputs and outputs of a number of samples: planes of channels or probes, `stride` apart, from a first sample on.
+/// The inputs and outputs of a number of samples: arrays that hold all samples of one channel or probe,
+/// then those of the next, of which a range of samples is processed.
 pub(super) struct Planes<'a> {
     /// Number of samples.
     pub(super) frames: usize,
-    /// The drive of all channels.
+    /// The drive samples of all channels.
     pub(super) drive: Drive<'a>,
-    /// Where sensors and probes are written.
+    /// The layout in which sensor and probe samples are written.
     pub(super) out: Out,
     /// Samples of all sensors, one sensor after another; empty if not wanted.
     pub(super) sensors: &'a mut [f64],
@@ -25,23 +27,23 @@ pub(super) struct Planes<'a> {
     pub(super) probes: &'a mut [f64],
 }
 
-/// The drive's samples, channel by channel.
+/// The drive samples, one channel after another.
 #[derive(Clone, Copy)]
 pub(super) struct Drive<'a> {
-    /// Samples of all channels, one channel after the other.
+    /// Samples of all channels, one channel after another.
     pub(super) values: &'a [f64],
-    /// Samples from one channel to the next.
+    /// Distance in samples from one channel to the next.
     pub(super) stride: usize,
-    /// Index of the first sample.
+    /// Index, within a channel, of the first sample to process.
     pub(super) first: usize,
 }
 
-/// The layout of the planes of sensors and probes.
+/// The layout of the sensor and probe samples.
 #[derive(Clone, Copy)]
 pub(super) struct Out {
-    /// Samples from one channel or probe to the next.
+    /// Distance in samples from one channel or probe to the next.
     pub(super) stride: usize,
-    /// Index of the first sample.
+    /// Index, within a channel or probe, of the first sample to process.
     pub(super) first: usize,
 }
 
@@ -89,7 +91,8 @@ impl WithSimd for Block<'_, '_> {
 }
 
 impl Engine {
-    /// One step of modes, loads and fingers. Reads the probes for the sample `heard`, if given.
+    /// Advances modes, loads and fingers by one step. Reads the probes for the sample with index `heard`;
+    /// with `None`, probes are not read.
     #[inline(always)]
     fn advance<S: Simd>(&mut self, simd: S, planes: &mut Planes, heard: Option<usize>) {
         let columns = self.tiles.columns();
@@ -132,7 +135,8 @@ impl Engine {
         }
     }
 
-    /// Takes the motion of the ports from the last sweep: velocity, and displacement over the next step without forces.
+    /// Takes the motion of the ports from the last pass over the modes: velocity, and displacement over the
+    /// next step without forces.
     #[inline(always)]
     fn sense<S: Simd>(&mut self, simd: S) {
         let columns = self.tiles.columns();
@@ -145,7 +149,7 @@ impl Engine {
         }
     }
 
-    /// Takes one drive sample of all channels: impulses on ports and steps of coil currents.
+    /// Applies one drive sample of all channels: impulses on ports and steps of coil currents.
     #[inline(always)]
     fn drive(&mut self, drive: &Drive, frame: usize) {
         self.impulse.fill([0.0; OCT]);
@@ -164,7 +168,8 @@ impl Engine {
         }
     }
 
-    /// Processes an instant: impulses, shared with the masses, then the forces of the next step.
+    /// Does what happens at one instant: applies impulses, which masses share, then computes the forces of
+    /// the next step.
     #[inline(always)]
     fn instant<S: Simd>(&mut self, simd: S, struck: bool) {
         let ports = self.couplings.ports();
@@ -235,7 +240,8 @@ impl Engine {
     }
 }
 
-/// Distributes amounts on ports to the columns of the tiles; the first `fixed` of both are the same.
+/// Distributes forces or impulses on ports to the columns of the tiles; for the first `fixed` ports, port
+/// and column are equal.
 #[inline(always)]
 fn lay(parts: &[Part], fixed: usize, ports: &[f64], columns: &mut [f64]) {
     columns[..fixed].copy_from_slice(&ports[..fixed]);

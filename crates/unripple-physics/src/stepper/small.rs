@@ -7,7 +7,7 @@ use std::ops::Range;
 /// processed.
 pub(super) const OCT: usize = 8;
 
-/// A value for each of eight ports.
+/// One value for each of eight ports.
 pub(super) type Oct = [f64; OCT];
 
 /// Number of groups of eight that vectors over `ports` ports take.
@@ -43,7 +43,8 @@ pub(super) fn add<S: Simd>(simd: S, to: &mut [Oct], values: &[Oct]) {
     }
 }
 
-/// A square matrix of up to `size` rows: eight rows of every column, then the next eight rows.
+/// A square matrix of up to `size` rows, stored eight rows at a time: the values of eight rows for every
+/// column, then those of the next eight rows.
 #[derive(Clone, Debug)]
 pub(super) struct Small {
     size: usize,
@@ -73,7 +74,7 @@ impl Small {
         self.cells.fill([0.0; OCT]);
     }
 
-    /// `out = M x` over the first columns, as many as `x` has.
+    /// The product `out = M x`, over as many columns of the matrix as `x` has elements.
     #[inline(always)]
     pub(super) fn product<S: Simd>(&self, simd: S, x: &[f64], out: &mut [Oct]) {
         let n = registers::<S>();
@@ -102,9 +103,9 @@ impl Small {
     }
 }
 
-/// Above this trace of `D A D`, systems are solved by Cholesky factors rather than by their inverse, whose rounding errors
-/// would be too large: at 1e5, eleven digits are left. With twice this value, stiffer loads are solved by the inverse, with a third of a
-/// digit less.
+/// Trace of `D A D` above which systems are solved by Cholesky factors rather than by the inverse, whose
+/// rounding errors would be too large: at 1e5, eleven digits are left. With twice this value, stiffer loads
+/// are solved by the inverse, with a third of a digit less.
 const STIFF: f64 = 1e5;
 
 /// Solves `(1 + D A D) x = r`, with A symmetric and positive semidefinite and D diagonal, by an inverse that is updated when
@@ -143,7 +144,7 @@ impl Solution {
         Self { x: zeros.clone(), scaled: zeros.clone(), image: zeros }
     }
 
-    /// D x and A D x.
+    /// Computes D x and A D x from the solution x.
     #[inline(always)]
     fn follow<S: Simd>(&mut self, simd: S, matrix: &Small, scale: &[Oct], ports: usize) {
         for ((scaled, x), scale) in self.scaled.iter_mut().zip(&self.x).zip(scale) {
@@ -156,7 +157,7 @@ impl Solution {
 }
 
 impl Inverse {
-    /// The inverse of no ports, with room for a number `size` of them.
+    /// The inverse for zero ports, with room for `size` ports.
     pub(super) fn new(size: usize) -> Self {
         let vector = vec![[0.0; OCT]; octs(size)];
         Self {
@@ -176,7 +177,7 @@ impl Inverse {
         self.fixed.cells.copy_from_slice(&self.now.cells);
     }
 
-    /// Computes the inverse for the fixed ports followed by these, given by their indices.
+    /// Computes the inverse for the fixed ports followed by the ports with the given indices.
     #[inline(always)]
     pub(super) fn extend<S: Simd>(&mut self, simd: S, ports: Range<usize>, matrix: &Small, scale: &[f64]) {
         self.now.cells.copy_from_slice(&self.fixed.cells);
@@ -191,7 +192,7 @@ impl Inverse {
         }
     }
 
-    /// Solves for a right-hand side, one number per port.
+    /// Solves the system for a right-hand side, one number per port.
     #[inline(always)]
     pub(super) fn solve<S: Simd>(
         &self,

@@ -6,22 +6,22 @@ use unripple_core::Finger;
 /// A finger that is being put down, in contact, or being lifted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Touch {
-    /// Number given to it by the caller.
+    /// Number by which the caller identifies the finger.
     pub(super) id: u64,
     /// Mass, damping, stiffness and contact radius of the finger.
     pub(super) finger: Finger,
-    /// Index of its pair of rows of weights.
+    /// Index of the finger's pair of rows of weights.
     pub(super) slot: usize,
     /// Progress of the fade-in, 0 to 1; it decreases when the finger is lifted.
     pub(super) coming: f64,
-    /// Progress of moving to its newest place, 0 to 1.
+    /// Progress of the movement to the newest place, 0 to 1.
     pub(super) moving: f64,
     /// Whether the finger has been lifted.
     pub(super) lifted: bool,
 }
 
 impl Touch {
-    /// A finger at the start of its fade-in; `slot` is the index of its pair of rows of weights.
+    /// A finger at the start of its fade-in; `slot` is the index of the finger's pair of rows of weights.
     pub(super) fn new(id: u64, finger: Finger, slot: usize) -> Self {
         Self { id, finger, slot, coming: 0.0, moving: 1.0, lifted: false }
     }
@@ -32,7 +32,7 @@ impl Touch {
         self.lifted || self.coming < 1.0 || self.moving < 1.0
     }
 
-    /// Advances the finger's fade and movement by these shares, 0 to 1 each.
+    /// Advances the finger's fade and movement by the given shares of the whole, 0 to 1 each.
     #[inline(always)]
     pub(super) fn go_on(&mut self, fade: f64, glide: f64) {
         let fade = if self.lifted { -fade } else { fade };
@@ -54,14 +54,14 @@ impl Touch {
         x * x * x * (10.0 + x * (6.0 * x - 15.0))
     }
 
-    /// Shares, 0 to 1, of the place it moves from and the place it moves to.
+    /// Weights, 0 to 1, of the place that the finger moves from and the place that it moves to.
     #[inline(always)]
     pub(super) fn shares(&self) -> [f64; 2] {
         let grip = self.grip();
         [grip * (1.0 - self.moving), grip * self.moving]
     }
 
-    /// The finger as a load.
+    /// The finger's mass, damping and stiffness as a load.
     pub(super) fn burden(&self) -> Burden {
         let Finger { mass, damping, stiffness, .. } = self.finger;
         Burden { mass, damping, stiffness, circuit: None, twin: false }

@@ -16,17 +16,17 @@ use unripple_core::Pole;
 /// The ports of all channels, with their loads.
 #[derive(Default)]
 pub(super) struct Wiring {
-    /// Weights of the ports, those without load first; what is missing at the end of a row is zero.
+    /// Modal weights of the ports, ports without load first; elements missing at the end of a row are zero.
     pub(super) rows: Vec<Vec<f64>>,
     /// Number of ports without load.
     pub(super) plain: usize,
-    /// The loads of the other ports, in order.
+    /// The loads of the ports that have one, in the order of the ports.
     pub(super) burdens: Vec<Burden>,
-    /// The channels' ports and factors, in order.
+    /// The port of each channel and its factors for drive and sensor, in channel order.
     pub(super) leads: Vec<Lead>,
     /// Number of housings, each with a twin.
     pub(super) housings: usize,
-    /// Poles of the modes, of the housings and of their twins.
+    /// Poles of the modes, then of the housings, then of the housings' twins.
     pub(super) poles: Vec<Pole>,
 }
 
@@ -74,8 +74,9 @@ impl Wiring {
         Ok(wiring)
     }
 
-    /// Adds the ports of a load to those that are `loaded`, given the weights of its footprint, one per mode. Returns the port where a
-    /// coil acts, which that of the twin follows.
+    /// Appends the ports of a load to the rows of `loaded` ports, given the weights of the load's
+    /// footprint, one per mode. Returns the port on which a coil acts; the port of the housing's twin, if
+    /// any, is the next.
     fn hang(
         &mut self,
         load: &Load,
@@ -99,7 +100,8 @@ impl Wiring {
     }
 }
 
-/// Whether the drive of a channel acts at a port of its own: as a force where there is no load, or one with another footprint.
+/// Whether the drive of a channel acts at a port without load: as a force, where the channel has no load,
+/// or a load with another footprint.
 fn struck(channel: &Channel) -> bool {
     let apart = |load: &Load| load.housing.is_none() && load.footprint != channel.footprint;
     !channel.voltage && channel.load.as_ref().is_none_or(apart)
@@ -110,7 +112,7 @@ fn burden(load: &Load) -> Burden {
     Burden { mass, damping, stiffness, circuit, twin: false }
 }
 
-/// A row of weights with one more at a coordinate behind them.
+/// A row of weights extended by zeros up to the index `coordinate`, where `weight` is added.
 fn with(mut row: Vec<f64>, coordinate: usize, weight: f64) -> Vec<f64> {
     row.resize(coordinate, 0.0);
     row.push(weight);

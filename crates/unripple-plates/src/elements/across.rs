@@ -1,4 +1,5 @@
-//! Triangles near the rims of glued discs: their functions with jumps, and matrices by quadrature on both sides of the rims.
+//! Triangles near the rims of glued discs: their functions with jumps of curvature, and their matrices by
+//! quadrature on both sides of a rim.
 
 use super::element::{Element, Jumping, Shares};
 use super::kink::{Factors, Kink};
@@ -13,11 +14,13 @@ use std::collections::BTreeMap;
 use unripple_core::{Edge, Point};
 use unripple_linalg::{Mat, exact_symmetric};
 
-/// Least mean square of an added function, where that of ψ is about 1 at an edge length from the rim: a hundred million times that of
-/// rounding. A hundred times as much, and jumps in triangles that the rim just touches are missed.
+/// Least mean square of an added function, relative to that of ψ at an edge length from the rim, which is
+/// about 1: a hundred million times that of rounding errors. A hundred times as much, and jumps in
+/// triangles that the rim just touches are missed.
 const FAINT: f64 = 1e-13;
 
-/// A mesh, the lengths (m) by which derivatives at its vertices are scaled, and the rule on either side of a rim.
+/// A mesh, the lengths (m) by which derivatives at its vertices are scaled, and the quadrature rule on
+/// either side of a rim.
 struct Base<'a> {
     mesh: &'a Mesh,
     lengths: Vec<f64>,
@@ -25,7 +28,8 @@ struct Base<'a> {
 }
 
 impl Space {
-    /// The space with functions added whose curvature jumps across the rims of discs that touch no other disc.
+    /// The space with added functions whose curvature jumps across the rims of glued discs; discs that
+    /// touch another disc are left out.
     pub(crate) fn with_kinks(mut self, mesh: &Mesh, fabric: &Fabric) -> Self {
         let discs = fabric.discs();
         if discs.is_empty() {
@@ -76,8 +80,9 @@ impl Space {
         }
     }
 
-    /// The vertices of triangles that a disc's rim crosses, with the triangles around each: those of which all triangles have the 21
-    /// unknowns of quintics that nothing holds.
+    /// The vertices of triangles crossed by a disc's rim, each with the triangles around it. Only vertices
+    /// all of whose triangles have the full 21 unknowns of a quintic, without any edge condition, are
+    /// included.
     fn near(&self, mesh: &Mesh, disc: &Disc) -> BTreeMap<usize, Vec<usize>> {
         let (mut crossed, mut held) = (vec![false; mesh.vertices.len()], vec![false; mesh.vertices.len()]);
         for (element, triangle) in self.elements.iter().zip(&mesh.triangles) {
@@ -98,8 +103,9 @@ impl Space {
     }
 }
 
-/// Factors of monomials, by which functions around a vertex are orthogonal, with a mean square of 1 over its triangles; of the six
-/// combinations those that are more than rounding. The functions of the six monomials are given for each triangle.
+/// Combinations of the functions around a vertex that are orthogonal, with a mean square of 1 over the
+/// vertex's triangles, as factors of the six monomials. Of the six combinations, those that are only
+/// rounding errors are left out. `all` holds the functions of the six monomials for each triangle.
 fn independent(
     elements: &[Element],
     rule: &Rule,
@@ -128,7 +134,7 @@ fn independent(
     kept.map(|i| std::array::from_fn(|j| vectors[(j, i)] / squares[i].sqrt())).collect()
 }
 
-/// The 21 values of a function by which a quintic on a triangle is determined, scaled as its unknowns are.
+/// The 21 values of a function that determine a quintic on a triangle, scaled like the triangle's unknowns.
 fn nodal(mesh: &Mesh, triangle: &Triangle, lengths: &[f64], function: impl Fn(Point) -> Jet) -> Vec<f64> {
     let mut values = Vec::with_capacity(QUINTIC);
     for v in triangle.vertices {
@@ -144,7 +150,7 @@ fn nodal(mesh: &Mesh, triangle: &Triangle, lengths: &[f64], function: impl Fn(Po
     values
 }
 
-/// Stiffness, bending and mass matrices of a triangle with functions that jump.
+/// Stiffness, bending and mass matrices of a triangle that has functions with jumps.
 pub(super) fn shares(element: &Element, fabric: &Fabric, rule: &Rule) -> Shares {
     let mut sums = Sums::new(element.unknowns.len());
     let discs = fabric.discs();
@@ -173,7 +179,7 @@ pub(super) fn shares(element: &Element, fabric: &Fabric, rule: &Rule) -> Shares 
     sums.shares()
 }
 
-/// Sums of the matrices of one triangle, lower triangles row by row.
+/// Sums over quadrature points for the matrices of one triangle, lower triangles row by row.
 struct Sums {
     count: usize,
     rest: Vec<f64>,
@@ -187,7 +193,7 @@ impl Sums {
         Self { count, rest: none(), bending: none(), mass: none() }
     }
 
-    /// Adds a point of some weight (m²).
+    /// Adds the contribution of a quadrature point with a given weight (m²).
     fn add(&mut self, jets: &[Vec<f64>; 6], local: &Local, weight: f64) {
         let [u, ux, uy, uxx, uxy, uyy] = jets;
         let [d11, d12, d16, d22, d26, d66] = local.bending.map(|d| weight * d);
@@ -209,7 +215,8 @@ impl Sums {
         }
     }
 
-    /// Adds a point of an elastic edge with a normal, of springs against its deflection (N/m) and slope (N·m).
+    /// Adds the contribution of a point of an elastic edge with a given normal: springs against deflection
+    /// (N/m) and slope (N·m).
     fn add_spring(&mut self, jets: &[Vec<f64>; 6], [nx, ny]: [f64; 2], [lift, tilt]: [f64; 2]) {
         let [u, ux, uy, ..] = jets;
         let slope = |i: usize| nx * ux[i] + ny * uy[i];
@@ -220,7 +227,7 @@ impl Sums {
         }
     }
 
-    /// The whole matrices.
+    /// The complete symmetric matrices.
     fn shares(mut self) -> Shares {
         let n = self.count;
         for (rest, bending) in self.rest.iter_mut().zip(&self.bending) {

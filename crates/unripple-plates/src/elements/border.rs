@@ -2,20 +2,20 @@
 
 use unripple_core::{Edge, Point, Side};
 
-/// Largest turn of a curve, in radians, that is integrated along without being cut. With twice this value, quadrature rules apply to
-/// curves that turn by up to 1.6 rad, and converge more slowly.
+/// Largest turn of a curve, in radians, over which quadrature is done without cutting the curve. With twice
+/// this value, quadrature rules apply to curves that turn by up to 1.6 rad, and converge more slowly.
 const TURN: f64 = 0.8;
 
-/// One edge of a triangle, run through as a parameter goes from 0 to 1; the triangle lies to its left.
+/// One edge of a triangle, described by a parameter from 0 to 1; the triangle lies to its left.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Border {
     /// The side of a rim, or the line, of which the border is a piece.
     pub(crate) side: Side,
     /// The side's parameter where the border starts.
     pub(crate) from: f64,
-    /// The side's parameter where it ends.
+    /// The side's parameter where the border ends.
     pub(crate) to: f64,
-    /// The edge condition if it is on a rim; `None` inside.
+    /// The edge condition if the border is on a rim; `None` inside the sheet.
     pub(crate) held: Option<Edge>,
 }
 
@@ -61,7 +61,7 @@ impl Border {
         (0..count).map(move |i| whole.piece(i as f64 / count as f64, (i + 1) as f64 / count as f64))
     }
 
-    /// Angle by which it turns, in radians.
+    /// Angle by which the border turns, in radians.
     fn turn(&self) -> f64 {
         match self.side {
             Side::Line { .. } => 0.0,
@@ -76,8 +76,8 @@ impl Border {
         }
     }
 
-    /// Distance of a point to the left of the border, in metres: for a curve, from its point with the same foot on the chord.
-    /// Beyond its ends, the distance from the line through the chord.
+    /// Distance of a point to the left of the border, in metres. For a curve, it is measured perpendicular
+    /// to the chord; beyond the ends of the chord, it is the distance from the line through the chord.
     pub(crate) fn left_of(&self, p: Point) -> f64 {
         let (a, b) = (self.at(0.0), self.at(1.0));
         let (cx, cy) = (b.x - a.x, b.y - a.y);

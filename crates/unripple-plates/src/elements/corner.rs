@@ -13,22 +13,26 @@ use super::topology::Topology;
 use crate::mesh::Mesh;
 use unripple_core::Edge;
 
-/// A condition counts as linearly dependent on the others if a smaller share of it than this is independent: between
-/// rounding errors and the angles at which sides meet. With twice this value, conditions that differ by 2e-6 would count as one.
+/// A condition counts as linearly dependent on the others if the part of it that is independent is smaller
+/// than this: between rounding errors and the angles at which sides meet. With twice this value, conditions
+/// that differ by 2e-6 would count as one.
 const RANK: f64 = 1e-6;
 
-/// Sides that meet at an angle this near to a straight one, in radians, count as one smooth curve. Otherwise a kink by rounded
-/// coordinates would fix the slope, with an error of (h/L)²; ignoring it has an error of its angle times (h/L)².
+/// Sides that meet at an angle within this of a straight angle, in radians, count as one smooth curve.
+/// Otherwise a kink due to rounded coordinates would fix the slope, with an error of (h/L)²; ignoring the
+/// kink has an error of its angle times (h/L)².
 const SMOOTH: f64 = 1e-3;
 
-/// The unknowns of a vertex, and their relation to u, u_x, u_y, u_xx, u_xy, u_yy there, each scaled by a power of a length.
+/// The unknowns of a vertex, and their relation to u, u_x, u_y, u_xx, u_xy, u_yy there, each scaled by a
+/// power of `length`.
 #[derive(Clone, Debug)]
 pub(crate) struct Corner {
     /// Number of unknowns.
     pub(crate) count: usize,
     /// The length in metres by which derivatives are scaled.
     pub(crate) length: f64,
-    /// Six rows of `count` coefficients: for all triangles alike, or for each triangle of a fan.
+    /// Six rows of `count` coefficients: one set for all triangles (`None`), or one for each triangle
+    /// around the vertex.
     values: Vec<(Option<usize>, Vec<f64>)>,
 }
 
@@ -36,7 +40,7 @@ pub(crate) struct Corner {
 #[derive(Clone, Copy, Debug)]
 struct Meeting {
     tangent: [f64; 2],
-    /// Curvature times the length.
+    /// Curvature of the side times the length by which derivatives are scaled.
     curvature: f64,
     edge: Edge,
 }
@@ -83,7 +87,8 @@ impl Corner {
         Self { count: 6, length, values: vec![(None, identity(6).concat())] }
     }
 
-    /// The unknowns that satisfy the conditions; `jumps` holds for each triangle the normals of the edges across which H jumps.
+    /// The unknowns that satisfy the edge conditions (`rows`); `jumps` holds for each triangle the normals
+    /// of the edges across which H jumps.
     fn held(length: f64, rows: Vec<Vec<f64>>, jumps: Vec<(Option<usize>, Vec<[f64; 2]>)>) -> Self {
         let size = rows.first().map_or(6, Vec::len);
         let free = null_space(rows, size);
@@ -103,7 +108,8 @@ impl Corner {
         Self { count: free.len(), length, values }
     }
 
-    /// Coefficients of the unknowns for the six values in a triangle: six rows of [`Corner::count`].
+    /// Coefficients of the unknowns for u, u_x, u_y, u_xx, u_xy, u_yy in a triangle: six rows of
+    /// [`Corner::count`].
     pub(crate) fn values(&self, triangle: usize) -> &[f64] {
         let found = self.values.iter().find(|(of, _)| of.is_none_or(|t| t == triangle));
         found.map_or(&[], |(_, values)| values)
@@ -111,7 +117,7 @@ impl Corner {
 }
 
 impl Meeting {
-    /// The side of a rim edge, at the edge's start or end; `None` for an edge inside.
+    /// The side that a rim edge belongs to, as it is at the edge's start or end; `None` for an edge inside.
     fn of(mesh: &Mesh, edge: usize, start: bool, length: f64) -> Option<Self> {
         let span = mesh.edges[edge].span?;
         let (side, edge) = *mesh.sides.get(span.side)?;
@@ -121,7 +127,7 @@ impl Meeting {
         Some(Self { tangent: [d.x / size, d.y / size], curvature: side.curvature(t) * length, edge })
     }
 
-    /// Gives both sides their mean tangent if they nearly continue each other.
+    /// Gives both sides their mean tangent if they meet at nearly a straight angle.
     fn smooth(&mut self, other: &mut Self) {
         let ([ax, ay], [bx, by]) = (self.tangent, other.tangent);
         let (across, along) = (ax * by - ay * bx, ax * bx + ay * by);
@@ -142,8 +148,8 @@ impl Meeting {
             && self.edge == other.edge
     }
 
-    /// The conditions of this side, as rows whose product with the six values and the jumps of H (given by the normals of their
-    /// edges) is zero.
+    /// The conditions of this side, as rows whose product with the six values and the jumps of H is zero;
+    /// `jumps` are the normals of the edges across which H jumps.
     fn conditions(&self, bending: bool, jumps: &[[f64; 2]]) -> Vec<Vec<f64>> {
         let ([tx, ty], [nx, ny]) = (self.tangent, [-self.tangent[1], self.tangent[0]]);
         let row = |u: f64, g: [f64; 2], a: [f64; 2]| {
@@ -189,7 +195,7 @@ fn null_space(rows: Vec<Vec<f64>>, size: usize) -> Vec<Vec<f64>> {
     basis.split_off(rank)
 }
 
-/// Adds up to `most` directions of candidates to an orthonormal basis, the most independent first.
+/// Adds up to `most` directions from the candidates to an orthonormal basis, the most independent first.
 fn extend(basis: &mut Vec<Vec<f64>>, mut candidates: Vec<Vec<f64>>, most: usize) {
     let clean = |v: &mut Vec<f64>, basis: &[Vec<f64>]| {
         for b in basis {

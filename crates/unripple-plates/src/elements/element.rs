@@ -15,19 +15,20 @@ use unripple_core::Point;
 /// degree are added whose coefficients depend on the 21 values.
 #[derive(Clone, Debug)]
 pub(crate) struct Element {
-    /// Centre and scale of its monomials.
+    /// Centre and scale of the element's monomials.
     pub(crate) frame: Frame,
     /// Edges of the triangle, anticlockwise.
     pub(crate) borders: [Border; 3],
-    /// Indices of the unknowns that its functions depend on: those of its polynomials, then those with jumps.
+    /// Indices of the unknowns on which the element's functions depend: those of its polynomials, then
+    /// those of its functions with jumps.
     pub(crate) unknowns: Vec<usize>,
     /// Coefficients of the basis polynomials, monomials x polynomials, row by row.
     pub(crate) basis: Vec<f64>,
-    /// The functions with jumps of curvature at the rims of discs, for the last unknowns.
+    /// The functions with jumps of curvature at the rims of discs; the last unknowns belong to them.
     jumping: Vec<Jumping>,
 }
 
-/// Stiffness, bending and mass matrices of one triangle, row by row of its unknowns.
+/// Stiffness, bending and mass matrices of one triangle, between its unknowns, row by row.
 pub(super) type Shares = [Vec<f64>; 3];
 
 /// A function N (ψq - I(ψq)) with a jump of curvature at the rim of a disc, see [`Kink`], on one triangle.
@@ -35,9 +36,9 @@ pub(super) type Shares = [Vec<f64>; 3];
 pub(crate) struct Jumping {
     /// The function ψ of the disc.
     pub(crate) kink: Kink,
-    /// The vertex around which it is, in metres.
+    /// The vertex where the polynomial N is 1, in metres.
     pub(crate) vertex: Point,
-    /// The polynomial q.
+    /// The polynomial q, as factors of monomials.
     pub(crate) factors: Factors,
     /// Column of N among the basis polynomials.
     pub(crate) column: usize,
@@ -46,7 +47,8 @@ pub(crate) struct Jumping {
 }
 
 impl Jumping {
-    /// ψq - I(ψq) at a point, with as many derivatives as there are rows of the monomials; `covered` if the disc is over the point.
+    /// The function ψq - I(ψq) at a point: as many of its value and derivatives as `monomials` has rows;
+    /// `covered` if the disc is over the point.
     fn left(&self, p: Point, covered: bool, monomials: &[[f64; COUNT]]) -> Jet {
         let mut left = if covered { [0.0; 6] } else { self.kink.outside(self.vertex, &self.factors, p) };
         for (value, row) in left.iter_mut().zip(monomials) {
@@ -56,27 +58,27 @@ impl Jumping {
     }
 }
 
-/// The middle of an edge, with the normal derivative there as an unknown.
+/// The middle of an edge, where the normal derivative is an unknown.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Middle {
     /// Place of the edge's middle, in metres.
     pub(crate) at: Point,
     /// The unit normal, the same for the triangles on both sides.
     pub(crate) normal: [f64; 2],
-    /// The edge's length in metres, by which the derivative is scaled.
+    /// The edge's length in metres, by which the normal derivative is scaled.
     pub(crate) length: f64,
     /// Index of the unknown; `None` where the derivative is zero.
     pub(crate) unknown: Option<usize>,
 }
 
-/// A vertex of a triangle, with its unknowns.
+/// A vertex of a triangle, with the unknowns there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen<'a> {
     /// Place of the vertex, in metres.
     pub(crate) at: Point,
-    /// Index of its first unknown.
+    /// Index of the vertex's first unknown.
     pub(crate) first: usize,
-    /// The relation of its unknowns to the values at the vertex.
+    /// The relation of the vertex's unknowns to the values and derivatives there.
     pub(crate) corner: &'a Corner,
 }
 
@@ -104,42 +106,43 @@ impl Element {
         Self { frame, borders, unknowns, basis, jumping: Vec::new() }
     }
 
-    /// Adds a function with a jump, with the index of its unknown.
+    /// Adds a function with a jump of curvature; `unknown` is the index of its unknown.
     pub(crate) fn add(&mut self, jumping: Jumping, unknown: usize) {
         self.jumping.push(jumping);
         self.unknowns.push(unknown);
     }
 
-    /// Number of its basis polynomials.
+    /// Number of the element's basis polynomials.
     pub(crate) fn polynomials(&self) -> usize {
         self.unknowns.len() - self.jumping.len()
     }
 
-    /// Coefficients of the monomials of the polynomial that some values of its unknowns belong to.
+    /// Coefficients of the monomials of the polynomial that has the given values of the unknowns.
     pub(crate) fn polynomial(&self, values: &[f64]) -> Vec<f64> {
         let rows = self.basis.chunks_exact(self.polynomials());
         rows.map(|row| row.iter().zip(values).map(|(b, v)| b * v).sum()).collect()
     }
 
-    /// The functions ψ of discs with jumps here, each once.
+    /// The functions ψ of the discs whose rims cross this element, each once.
     pub(crate) fn kinks(&self) -> impl Iterator<Item = &Kink> {
         let first = |i: usize| self.jumping[..i].iter().all(|j| j.kink.disc != self.jumping[i].kink.disc);
         (0..self.jumping.len()).filter(move |i| first(*i)).map(|i| &self.jumping[i].kink)
     }
 
-    /// Index of the disc over a point (m), among those with functions here.
+    /// Index of the disc that covers a point (m), among the discs with functions in this element.
     pub(crate) fn covering(&self, p: Point) -> Option<usize> {
         self.kinks().find(|kink| kink.covers(p)).map(|kink| kink.disc)
     }
 
-    /// Values at a point (m) of functions with jumps that are not among its own; `covered` if the disc is over the point.
+    /// Values at a point (m) of six functions with jumps around one vertex, which need not be part of the
+    /// element; `covered` if the disc is over the point.
     pub(crate) fn jumps(&self, p: Point, covered: bool, functions: &[Jumping; 6]) -> [f64; 6] {
         let monomials = self.frame.values(p);
         let of_vertex = self.combine(&monomials)[functions[0].column];
         std::array::from_fn(|i| of_vertex * functions[i].left(p, covered, &[monomials])[0])
     }
 
-    /// Weights of the unknowns, one each, for u at a point (m).
+    /// Weights of the element's unknowns, one each, whose sum gives u at a point (m).
     pub(crate) fn values(&self, p: Point) -> Vec<f64> {
         if self.jumping.is_empty() {
             return self.combine(&self.frame.values(p));
@@ -148,8 +151,9 @@ impl Element {
         values
     }
 
-    /// Weights of the unknowns for u, u_x, u_y (1/m), u_xx, u_xy and u_yy (1/m²) at a point (m): six rows. `under` is the index of the disc
-    /// over the point, of those with functions here.
+    /// Weights of the element's unknowns that give u, u_x, u_y (1/m), u_xx, u_xy and u_yy (1/m²) at a point
+    /// (m): six rows. `under` is the index of the disc over the point, among the discs with functions in
+    /// this element.
     pub(crate) fn jets(&self, p: Point, under: Option<usize>) -> [Vec<f64>; 6] {
         let monomials = self.frame.jets(p);
         let mut rows = monomials.map(|jet| self.combine(&jet));
@@ -162,12 +166,13 @@ impl Element {
         rows
     }
 
-    /// Number of monomials of its polynomials: 21 for quintics, more at a clamped or supported curve.
+    /// Number of monomials of the element's polynomials: 21 for quintics, more at a clamped or supported
+    /// curve.
     pub(crate) fn monomials(&self) -> usize {
         if self.unknowns.is_empty() { QUINTIC } else { self.basis.len() / self.polynomials() }
     }
 
-    /// Weights of its polynomials, one each, for a value or derivative at a point, from those of the monomials.
+    /// Values or derivatives of the element's polynomials at a point, from those of the monomials.
     pub(crate) fn combine(&self, monomials: &[f64; COUNT]) -> Vec<f64> {
         let mut sums = vec![0.0; self.polynomials()];
         if sums.is_empty() {
@@ -179,13 +184,15 @@ impl Element {
         sums
     }
 
-    /// Distance of a point from the nearest edge, inside the triangle, in units of its size; negative outside.
+    /// Distance of a point inside the triangle from the nearest edge, in units of the triangle's size;
+    /// negative for a point outside.
     pub(crate) fn depth(&self, p: Point) -> f64 {
         self.borders.iter().map(|b| b.left_of(p)).fold(f64::INFINITY, f64::min) / self.frame.scale
     }
 }
 
-/// The 21 nodal values of each monomial: a row for each value.
+/// The 21 nodal values (u and its derivatives at vertices and edge middles) of each monomial: a row for
+/// each value.
 fn functionals(frame: &Frame, vertices: &[Seen; 3], middles: &[Middle; 3]) -> [[f64; QUINTIC]; QUINTIC] {
     let mut rows = [[0.0; QUINTIC]; QUINTIC];
     for (v, vertex) in vertices.iter().enumerate() {
@@ -205,7 +212,7 @@ fn functionals(frame: &Frame, vertices: &[Seen; 3], middles: &[Middle; 3]) -> [[
     rows
 }
 
-/// The inverse by Gauss-Jordan elimination with partial pivoting.
+/// The inverse of a matrix by Gauss-Jordan elimination with partial pivoting.
 fn inverse(mut a: [[f64; QUINTIC]; QUINTIC]) -> [[f64; QUINTIC]; QUINTIC] {
     let mut order = [0; QUINTIC];
     for k in 0..QUINTIC {

@@ -14,21 +14,23 @@ use rayon::prelude::*;
 use unripple_core::Edge;
 use unripple_linalg::sparse::SparseColMat;
 
-/// Number of triangles whose matrices all threads compute before one thread adds them up in order, so that sums do not
-/// depend on the number of threads. With twice this value, twice as many matrices are held at once.
+/// Number of triangles whose matrices are computed by all threads before one thread adds them up in order,
+/// so that sums do not depend on the number of threads. With twice this value, twice as many matrices are
+/// held at once.
 const BATCH: usize = 512;
 
 /// Number of unknowns processed at once: a 512-bit register holds as many f64. With twice this value, sums stay the same.
 const LANES: usize = 8;
 
-/// The symmetric matrices of a sheet on a space's unknowns, all with the same pattern, both triangles of it.
+/// The symmetric matrices of a sheet on a space's unknowns. All have the same sparsity pattern, and both
+/// their triangles are stored.
 #[derive(Clone, Debug)]
 pub(crate) struct Forms {
     /// ∫κᵀDκ + ∫T|∇u|² + ∮(lift u² + tilt (∂u/∂n)²), in J.
     pub(crate) stiffness: SparseColMat<usize, f64>,
     /// ∫κᵀDκ, the bending part of the stiffness, in J.
     pub(crate) bending: SparseColMat<usize, f64>,
-    /// ∫ρ_s u² and the point masses' m u².
+    /// ∫ρ_s u² plus m u² of each point mass, in kg·m².
     pub(crate) mass: SparseColMat<usize, f64>,
 }
 
@@ -74,7 +76,8 @@ impl Space {
         Forms { stiffness, bending, mass }
     }
 
-    /// The triangle of each point mass, its weights there and the mass in kg.
+    /// For each point mass: the triangle that contains it, the weights of the unknowns there, and its mass
+    /// in kg.
     fn point_masses(&self, fabric: &Fabric) -> Vec<(usize, Vec<f64>, f64)> {
         let place = |(at, mass): &(_, f64)| {
             let (e, at) = self.locate(*at);
@@ -91,7 +94,8 @@ fn add_point(mass: &mut [f64], weights: &[f64], added: f64) {
     }
 }
 
-/// Stiffness, bending and mass of one triangle, from its rules' points and the fabric there.
+/// Stiffness, bending and mass matrices of one triangle, by quadrature with the sheet's properties at the
+/// quadrature points.
 fn shares(element: &Element, fabric: &Fabric, rules: &Rules) -> Shares {
     let frame = &element.frame;
     let mut moments = Moments::new(frame, element.monomials());
@@ -135,7 +139,7 @@ fn add_springs(form: &mut Form, element: &Element, rule: &Rule) {
     }
 }
 
-/// A form of monomials as a form of the triangle's unknowns: Bᵀ F B.
+/// Transforms a bilinear form of monomials to a form of the triangle's unknowns: Bᵀ F B.
 struct Congruent<'a> {
     element: &'a Element,
     form: &'a Form,

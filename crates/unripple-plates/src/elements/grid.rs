@@ -4,12 +4,13 @@ use super::element::Element;
 use crate::mesh::Mesh;
 use unripple_core::{Point, Side};
 
-/// A point up to this far outside, in units of a triangle's size, counts as on its edge: some million times the rounding error.
-/// With twice this value, points twice as far outside keep their own place instead of the nearest point of the rim.
+/// A point outside a triangle by up to this distance, in units of the triangle's size, counts as on its
+/// edge: some million times the rounding error. With twice this value, points up to twice as far outside
+/// are used as they are instead of the nearest point of the rim.
 const ON: f64 = 1e-9;
 
-/// Number of points of a curve from which a bounding box is computed; the box is widened by its chord over twice this number.
-/// With twice this value, boxes of curved triangles are tighter.
+/// Number of points of a curve from which a bounding box is computed; the box is widened by the curve's
+/// chord over twice this number. With twice this value, boxes of curved triangles are tighter.
 const STEPS: usize = 8;
 
 /// A regular grid of cells, each with the triangles whose bounding boxes meet it, and the rims with their triangles.
@@ -19,14 +20,15 @@ pub(crate) struct Grid {
     cell: f64,
     columns: usize,
     rows: usize,
-    /// Start of each cell's triangles in `members`, and the end of the last.
+    /// Index in `members` where each cell's triangles begin, and the end of the last.
     starts: Vec<usize>,
     members: Vec<usize>,
-    /// The sides of rims, each with the triangles along it and the parameter at which each starts.
+    /// The sides of rims, each with the triangles along it and the side's parameter at which each triangle
+    /// starts.
     rims: Vec<(Side, Vec<(f64, usize)>)>,
 }
 
-/// Lower-left and upper-right corners.
+/// Lower-left and upper-right corners of a box.
 type Bounds = [Point; 2];
 
 impl Grid {
@@ -60,8 +62,8 @@ impl Grid {
         [place(p.x - self.corner.x, self.columns), place(p.y - self.corner.y, self.rows)]
     }
 
-    /// Index of the triangle that contains a point (m), and the point; for a point outside, the nearest point of the
-    /// rim.
+    /// Index of the triangle that contains a point (m), and the point itself; for a point outside the
+    /// sheet, the nearest point of the rim and its triangle.
     pub(crate) fn locate(&self, elements: &[Element], p: Point) -> (usize, Point) {
         let [i, j] = self.cell_of(p);
         let cell = j * self.columns + i;
@@ -91,7 +93,7 @@ impl Grid {
     }
 }
 
-/// The sides that triangles lie along, each with these triangles in order.
+/// The sides of rims, each with the triangles along it in order.
 fn rims(mesh: &Mesh) -> Vec<(Side, Vec<(f64, usize)>)> {
     let mut rims: Vec<_> = mesh.sides.iter().map(|(side, _)| (*side, Vec::new())).collect();
     for (t, triangle) in mesh.triangles.iter().enumerate() {

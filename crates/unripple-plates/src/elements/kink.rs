@@ -12,24 +12,26 @@ use super::monomials::Jet;
 use crate::fabric::Disc;
 use unripple_core::Point;
 
-/// Factors of the monomials 1, x, y, x²/2, xy and y²/2 around a vertex, in units of the kink's length.
+/// Factors of the monomials 1, x, y, x²/2, xy and y²/2 around a vertex, with coordinates in units of the
+/// kink's length.
 pub(crate) type Factors = [f64; 6];
 
-/// The function ψ of a disc.
+/// The function ψ of a glued disc: zero under the disc, and with a jump of curvature (or of slope) at its
+/// rim.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Kink {
     /// Index of the disc among those of the sheet.
     pub(crate) disc: usize,
     at: Point,
     radius: f64,
-    /// The length h by which it is scaled, in metres.
+    /// The length h by which ψ is scaled, in metres.
     length: f64,
-    /// Whether ψ is as s², for a sheet that bends, or as s.
+    /// Whether ψ is proportional to s², for a sheet that bends, or to s.
     bending: bool,
 }
 
 impl Kink {
-    /// The function for a disc, given with its index, scaled by a length (m).
+    /// The function ψ for the disc with this index, scaled by a length (m).
     pub(crate) fn new(index: usize, disc: &Disc, length: f64, bending: bool) -> Self {
         Self { disc: index, at: disc.at, radius: disc.radius, length, bending }
     }
@@ -39,8 +41,8 @@ impl Kink {
         p.distance(self.at) <= self.radius
     }
 
-    /// ψq at a point outside the disc, or the polynomial's continuation under it; q is the sum of the six monomials around a vertex (m)
-    /// times `factors`.
+    /// The function ψq at a point outside the disc, or its continuation as a polynomial under the disc; q
+    /// is the sum of the six monomials around a vertex (m) times `factors`.
     pub(crate) fn outside(&self, vertex: Point, factors: &Factors, p: Point) -> Jet {
         let unit = 1.0 / self.length;
         let (x, y) = (unit * (p.x - vertex.x), unit * (p.y - vertex.y));
@@ -52,12 +54,12 @@ impl Kink {
         product(&self.step(p), &polynomial)
     }
 
-    /// ψq itself, 0 under the disc.
+    /// The function ψq itself at a point: 0 under the disc.
     pub(crate) fn at(&self, vertex: Point, factors: &Factors, p: Point) -> Jet {
         if self.covers(p) { [0.0; 6] } else { self.outside(vertex, factors, p) }
     }
 
-    /// ψ or its continuation.
+    /// The function ψ at a point outside the disc, or its continuation under it.
     fn step(&self, p: Point) -> Jet {
         let (x, y) = (p.x - self.at.x, p.y - self.at.y);
         let bow = 1.0 / (self.radius * self.length);
@@ -73,7 +75,8 @@ impl Kink {
     }
 }
 
-/// The product of two functions, given and returned as value, first and second derivatives.
+/// The product of two functions; each function is given as its value, first and second derivatives at a
+/// point.
 pub(crate) fn product(a: &Jet, b: &Jet) -> Jet {
     [
         a[0] * b[0],

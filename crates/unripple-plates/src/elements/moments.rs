@@ -4,7 +4,7 @@ use super::monomials::{COUNT, EXPONENTS, Frame, HIGHEST};
 use crate::fabric::Local;
 use unripple_core::Point;
 
-/// Integrals of x^a y^b, entry [a][b], in a triangle's own coordinates.
+/// Integrals of x^a y^b over a triangle, entry [a][b], in the triangle's own coordinates.
 type Table = [[f64; POWERS]; POWERS];
 
 /// Number of powers that products of two polynomials of the highest degree have, from 0 to 14.
@@ -20,7 +20,8 @@ pub(crate) struct Moments {
     scale: f64,
     /// Number of monomials of the forms.
     count: usize,
-    /// Degrees of products of two of them, of their gradients and of their second derivatives.
+    /// Degrees of products of two monomials of the forms, of their gradients and of their second
+    /// derivatives.
     degrees: [usize; 3],
     mass: Table,
     tension: Table,
@@ -99,7 +100,7 @@ impl Moments {
         all
     }
 
-    /// A symmetric form from its entries.
+    /// A symmetric form on monomials, computed entry by entry from their exponents.
     fn form(&self, entry: impl Fn([usize; 2], [usize; 2]) -> f64) -> Form {
         let mut all = [[0.0; COUNT]; COUNT];
         for p in 0..self.count {
@@ -112,11 +113,11 @@ impl Moments {
     }
 }
 
-/// Index among D11, D12, D16, D22, D26, D66 of the one between two curvatures: Voigt's order of a symmetric
-/// matrix.
+/// Index among D11, D12, D16, D22, D26, D66 of the stiffness between two curvatures: Voigt's order of a
+/// symmetric matrix.
 const ENTRY: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
-/// The factors and exponents of u_xx, u_yy and 2u_xy of a monomial.
+/// The factors and exponents of u_xx, u_yy and 2u_xy, where u is a monomial with the given exponents.
 fn curvatures([a, b]: [usize; 2]) -> [(f64, [usize; 2]); 3] {
     let less = |x: usize, by: usize| x.saturating_sub(by);
     [

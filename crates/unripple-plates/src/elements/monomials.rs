@@ -2,30 +2,31 @@
 
 use unripple_core::Point;
 
-/// Degree of the polynomials of a triangle at a clamped or supported curve, where bubble functions are added; of all
-/// other triangles it is 5.
+/// Degree of the polynomials of a triangle at a clamped or supported curve, where bubble functions are
+/// added; the degree is 5 on all other triangles.
 pub(crate) const HIGHEST: usize = 7;
 
-/// Number of monomials x^i y^j with i + j ≤ 5: 21, as many as Argyris's values.
+/// Number of monomials x^i y^j with i + j ≤ 5: 21, equal to the number of values that determine Argyris's
+/// element.
 pub(crate) const QUINTIC: usize = count(5);
 
-/// Number of monomials of the highest degree and less.
+/// Number of monomials up to the highest degree.
 pub(crate) const COUNT: usize = count(HIGHEST);
 
 /// Exponents of all monomials, the lowest degree first.
 pub(crate) const EXPONENTS: [[usize; 2]; COUNT] = exponents();
 
-/// Number of monomials of a degree and less.
+/// Number of monomials x^i y^j up to a degree.
 pub(crate) const fn count(degree: usize) -> usize {
     (degree + 1) * (degree + 2) / 2
 }
 
-/// Index of the monomial of some exponents among all.
+/// Index of the monomial with the given exponents in [`EXPONENTS`].
 pub(crate) const fn place([i, j]: [usize; 2]) -> usize {
     (i + j) * (i + j + 1) / 2 + j
 }
 
-/// All exponents, degree by degree.
+/// The exponents of all monomials, degree by degree.
 const fn exponents() -> [[usize; 2]; COUNT] {
     let mut all = [[0; 2]; COUNT];
     let (mut degree, mut next) = (0, 0);
@@ -43,9 +44,9 @@ const fn exponents() -> [[usize; 2]; COUNT] {
 /// The centre and scale of a triangle's monomials.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
-    /// Where the monomials are centred, in metres.
+    /// The centre of the coordinates of the monomials, in metres.
     pub(crate) centre: Point,
-    /// The length that coordinates are divided by, in metres.
+    /// The length by which coordinates are divided, in metres.
     pub(crate) scale: f64,
 }
 
@@ -56,8 +57,8 @@ pub(crate) type Jet = [f64; 6];
 pub(crate) type Jets = [[f64; COUNT]; 6];
 
 impl Frame {
-    /// The frame of a straight triangle: its centroid, and the largest distance of a vertex from it, in
-    /// metres.
+    /// The frame of a straight triangle: its centroid, and the largest distance of a vertex from the
+    /// centroid, in metres.
     pub(crate) fn of(vertices: [Point; 3]) -> Self {
         let third = |f: fn(&Point) -> f64| vertices.iter().map(f).sum::<f64>() / 3.0;
         let centre = Point::new(third(|p| p.x), third(|p| p.y));
@@ -86,7 +87,7 @@ impl Frame {
     }
 }
 
-/// A table of powers from the lowest.
+/// The powers of a number, from 0 up.
 type Powers = [f64; HIGHEST + 1];
 
 fn powers(x: f64) -> Powers {
@@ -97,7 +98,7 @@ fn powers(x: f64) -> Powers {
     p
 }
 
-/// Powers of a number, their first and their second derivatives.
+/// Powers of a number, with the first and second derivatives of each.
 fn derived(x: f64) -> [Powers; 3] {
     let p = powers(x);
     let (mut first, mut second) = ([0.0; HIGHEST + 1], [0.0; HIGHEST + 1]);

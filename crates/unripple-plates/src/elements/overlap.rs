@@ -1,4 +1,5 @@
-//! The parts of a triangle that lie under discs and beside them, bounded by pieces of both rims.
+//! The parts of a triangle that lie under discs and outside them, bounded by pieces of the triangle's edges
+//! and of the discs' rims.
 
 use super::border::Border;
 use super::element::Element;
@@ -7,11 +8,12 @@ use crate::fabric::Disc;
 use std::f64::consts::TAU;
 use unripple_core::{Point, Side};
 
-/// Number of pieces of a curved edge that are searched for crossings with a disc's rim. Two crossings within one
-/// piece are missed; doubled, pieces are half as long.
+/// Number of pieces of a curved edge each of which is searched for a crossing with a disc's rim. Two
+/// crossings within one piece are missed; with twice as many, pieces are half as long.
 const PIECES: usize = 24;
 
-/// The pieces of borders, anticlockwise, around the part of a triangle under a disc; empty if there is none.
+/// The boundary, anticlockwise, of the part of a triangle under a disc; empty if the disc does not overlap
+/// the triangle.
 pub(crate) fn overlap(element: &Element, disc: &Disc) -> Vec<Border> {
     if !is_near(element, disc) {
         return Vec::new();
@@ -25,7 +27,8 @@ pub(crate) fn overlap(element: &Element, disc: &Disc) -> Vec<Border> {
     kept
 }
 
-/// The pieces of borders around the part of a triangle that lies under none of some discs, which do not touch each other.
+/// The boundary of the part of a triangle that lies under none of the given discs, which do not touch each
+/// other.
 pub(crate) fn uncovered(element: &Element, discs: &[&Disc]) -> Vec<Border> {
     let mut kept = Vec::new();
     for border in &element.borders {
@@ -46,14 +49,14 @@ pub(crate) fn crosses(element: &Element, disc: &Disc) -> bool {
     is_near(element, disc) && !arcs(element, disc).is_empty()
 }
 
-/// Whether a disc reaches the box around a triangle.
+/// Whether a disc reaches the bounding box of a triangle.
 fn is_near(element: &Element, disc: &Disc) -> bool {
     let [low, high] = bounds(element);
     let nearest = Point::new(disc.at.x.clamp(low.x, high.x), disc.at.y.clamp(low.y, high.y));
     nearest.distance(disc.at) <= disc.radius
 }
 
-/// The pieces of a border between cuts at ascending parameters.
+/// The pieces of a border that result from cutting it at the given parameters.
 fn cut(border: &Border, mut cuts: Vec<f64>) -> Vec<Border> {
     cuts.insert(0, 0.0);
     cuts.push(1.0);

@@ -3,7 +3,8 @@
 use super::space::Space;
 use unripple_linalg::sparse::SymbolicSparseColMat;
 
-/// The symmetric sparsity pattern of all matrices on a space, both triangles of it, rows ascending.
+/// The symmetric sparsity pattern of all matrices on a space; both triangles are listed, with ascending
+/// rows.
 pub(crate) fn pattern(space: &Space) -> SymbolicSparseColMat<usize> {
     let size = space.unknowns();
     let mut sharers = vec![Vec::new(); size];

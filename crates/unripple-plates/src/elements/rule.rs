@@ -9,17 +9,17 @@ use super::monomials::{HIGHEST, QUINTIC};
 use crate::modes::gauss;
 use unripple_core::Point;
 
-/// Quadrature rules for triangles, by the number of monomials of their polynomials.
+/// Quadrature rules for triangles, chosen by the number of monomials of their polynomials.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
     quintic: Rule,
     higher: Rule,
-    /// For functions with jumps, on either side of them.
+    /// The rule for functions with jumps of curvature, applied on either side of a jump.
     pub(crate) across: Rule,
 }
 
-/// Points of the rules on either side of a jump, along rays and straight borders, and along curves: exact to degree 22, that of the mass
-/// of the highest products.
+/// Numbers of points of the rule on either side of a jump: along rays and straight borders, and along
+/// curves. Exact to degree 22, the degree of the products of the highest functions in the mass matrix.
 const ACROSS: [usize; 2] = [12, 16];
 
 /// Gauss-Legendre rules on [0, 1]: along a cone's rays, along straight borders and along curves.
@@ -31,7 +31,8 @@ pub(crate) struct Rule {
 }
 
 impl Rules {
-    /// Rules for products of two polynomials, times coefficients that vary if `varying`.
+    /// Rules for products of two polynomials; if `varying`, also for such products times coefficients that
+    /// vary over the sheet.
     pub(crate) fn new(varying: bool) -> Self {
         let more = if varying { 3 } else { 0 };
         Self {
@@ -41,21 +42,22 @@ impl Rules {
         }
     }
 
-    /// The rule for polynomials of a number of monomials.
+    /// The rule for polynomials with a given number of monomials.
     pub(crate) fn of(&self, monomials: usize) -> &Rule {
         if monomials <= QUINTIC { &self.quintic } else { &self.higher }
     }
 }
 
 impl Rule {
-    /// A rule with as many points along rays and straight borders, and along curves.
+    /// A rule with `plain` points along rays and straight borders, and `curved` points along curves.
     fn new(plain: usize, curved: usize) -> Self {
         let rule = |count| gauss(count).into_iter().map(|(x, w)| (0.5 * (1.0 + x), 0.5 * w)).collect();
         Self { radial: rule(plain), straight: rule(plain), curved: rule(curved) }
     }
 
-    /// Points and weights (m²) over a triangle. Weights are positive if it is star-shaped with respect to the vertex opposite its
-    /// only curved edge, or, with several curved edges, to the mean of its vertices.
+    /// Quadrature points and weights (m²) over a triangle. Weights are positive if the triangle is
+    /// star-shaped with respect to the vertex opposite its only curved edge, or, with several curved edges,
+    /// to the mean of its vertices.
     pub(crate) fn triangle(&self, borders: &[Border; 3]) -> Vec<(Point, f64)> {
         let curved: Vec<usize> = (0..3).filter(|i| !borders[*i].is_straight()).collect();
         let mut points = Vec::new();
@@ -67,7 +69,8 @@ impl Rule {
         points
     }
 
-    /// Adds points (m) and weights (m²) over the region enclosed by borders, which have it to their left.
+    /// Adds quadrature points (m) and weights (m²) over the region enclosed by borders, which have the
+    /// region to their left.
     pub(crate) fn region(&self, borders: &[Border], points: &mut Vec<(Point, f64)>) {
         let share = 1.0 / borders.len().max(1) as f64;
         let mean = |f: fn(Point) -> f64| borders.iter().map(|b| share * f(b.at(0.0))).sum();
@@ -75,7 +78,7 @@ impl Rule {
         borders.iter().for_each(|border| self.cone(apex, border, points));
     }
 
-    /// Adds points and weights of the cone from an apex to a border, the weights signed.
+    /// Adds quadrature points and signed weights of the cone from an apex to a border.
     fn cone(&self, apex: Point, border: &Border, points: &mut Vec<(Point, f64)>) {
         for piece in border.pieces() {
             for &(s, ws) in if piece.is_straight() { &self.straight } else { &self.curved } {
@@ -89,7 +92,7 @@ impl Rule {
         }
     }
 
-    /// Points along a border: the point, the unit normal to its left, and the weight in metres.
+    /// Quadrature points along a border: the point, the unit normal to its left, and the weight in metres.
     pub(crate) fn along(&self, border: &Border) -> Vec<(Point, [f64; 2], f64)> {
         let pieces = border.pieces().flat_map(|piece| {
             let rule = if piece.is_straight() { &self.straight } else { &self.curved };

@@ -21,7 +21,7 @@ pub(crate) struct MeshShapes {
     modes: usize,
     /// Number of groups of [`LANES`] modes.
     groups: usize,
-    /// Coefficients, unknown by unknown, in groups of modes.
+    /// Coefficients of the modes for each unknown, in groups of [`LANES`] modes.
     lanes: Vec<[f64; LANES]>,
     /// The SIMD instruction set of the processor.
     arch: Arch,
@@ -37,7 +37,8 @@ impl std::fmt::Debug for MeshShapes {
 }
 
 impl MeshShapes {
-    /// Mode shapes from their coefficients, unknowns x modes, which are mass-normalised and have the right signs.
+    /// Mode shapes from their coefficients, unknowns x modes, which must be mass-normalised and have their
+    /// final signs.
     pub(crate) fn new(space: Space, coefficients: MatRef<f64>) -> Self {
         let (unknowns, modes) = (space.unknowns().min(coefficients.nrows()), coefficients.ncols());
         let groups = modes.div_ceil(LANES);
@@ -50,7 +51,7 @@ impl MeshShapes {
         Self { space, modes, groups, lanes, arch: Arch::new() }
     }
 
-    /// Sums of weighted unknowns for every mode.
+    /// Sums the unknowns' values times `weights` for every mode.
     fn sum(&self, unknowns: &[usize], weights: &[f64], row: &mut [f64]) {
         self.arch.dispatch(Sum { lanes: &self.lanes, groups: self.groups, unknowns, weights, row });
     }
@@ -96,7 +97,7 @@ impl Shapes for MeshShapes {
     }
 }
 
-/// Weighted sums of the rows of unknowns.
+/// Computes weighted sums of the rows of unknowns.
 struct Sum<'a> {
     lanes: &'a [[f64; LANES]],
     groups: usize,

@@ -17,13 +17,14 @@ use unripple_core::{Edge, Point};
 pub(crate) struct Space {
     /// The triangles with their quintics, in the mesh's order.
     pub(super) elements: Vec<Element>,
-    /// The grid by which a point's triangle is found.
+    /// The grid for finding the triangle that contains a point.
     pub(super) grid: Grid,
     pub(super) unknowns: usize,
 }
 
 impl Space {
-    /// The space on a mesh; `bending` if the sheet has bending stiffness: otherwise clamped edges do not fix the slope.
+    /// The space on a mesh; `bending` if the sheet has bending stiffness: without it, clamped edges do not
+    /// fix the slope.
     pub(crate) fn new(mesh: &Mesh, bending: bool) -> Self {
         let topology = Topology::of(mesh);
         let corners: Vec<Corner> = (0..mesh.vertices.len())
@@ -64,19 +65,19 @@ impl Space {
         Self { elements, grid, unknowns }
     }
 
-    /// Number of unknowns n: the size of all forms.
+    /// Number of unknowns n: the size of all matrices.
     pub(crate) fn unknowns(&self) -> usize {
         self.unknowns
     }
 
-    /// Index of the triangle that contains a point (m), and the point; for a point outside, the nearest point of the
-    /// rim.
+    /// Index of the triangle that contains a point (m), and the point itself; for a point outside the
+    /// sheet, the nearest point of the rim and its triangle.
     pub(crate) fn locate(&self, point: Point) -> (usize, Point) {
         self.grid.locate(&self.elements, point)
     }
 
-    /// Indices and weights of the unknowns whose sum is u at a point (m), or for a point outside at the nearest point of the
-    /// rim.
+    /// Indices and weights of the unknowns whose weighted sum is u at a point (m), or for a point outside
+    /// the sheet at the nearest point of the rim.
     pub(crate) fn weights(&self, point: Point) -> (&[usize], Vec<f64>) {
         let (element, point) = self.locate(point);
         let Some(element) = self.elements.get(element) else { return (&[], Vec::new()) };
@@ -84,7 +85,8 @@ impl Space {
     }
 
     #[cfg(test)]
-    /// As [`Space::weights`], for u, u_x, u_y (1/m), u_xx, u_xy and u_yy (1/m²): six rows of weights.
+    /// Indices of unknowns and six rows of weights, as by [`Space::weights`], for u, u_x, u_y (1/m), u_xx,
+    /// u_xy and u_yy (1/m²).
     pub(crate) fn derivatives(&self, point: Point) -> (&[usize], [Vec<f64>; 6]) {
         let (element, point) = self.locate(point);
         let Some(element) = self.elements.get(element) else { return (&[], Default::default()) };
@@ -92,13 +94,13 @@ impl Space {
     }
 }
 
-/// The edge condition of an edge on a rim; `None` inside.
+/// The edge condition of a mesh edge on a rim; `None` for an edge inside the sheet.
 fn held(mesh: &Mesh, edge: usize) -> Option<Edge> {
     let span = mesh.edges[edge].span?;
     mesh.sides.get(span.side).map(|(_, edge)| *edge)
 }
 
-/// An edge as a triangle's border, from one of its vertices to the next.
+/// A mesh edge as a triangle's border, running from the first to the second of the points `ends`.
 fn border(mesh: &Mesh, edge: usize, ends: [Point; 2]) -> Border {
     let straight = Border { held: held(mesh, edge), ..Border::line(ends[0], ends[1]) };
     let Some(span) = mesh.edges[edge].span else { return straight };
@@ -110,7 +112,7 @@ fn border(mesh: &Mesh, edge: usize, ends: [Point; 2]) -> Border {
     }
 }
 
-/// The middle of an edge, on a curved side by the parameter of the curve.
+/// The middle of a mesh edge; on a curved side, the point halfway in the parameter of the curve.
 pub(super) fn middle(mesh: &Mesh, edge: usize) -> Middle {
     let ends = mesh.edges[edge].ends.map(|v| mesh.vertices[v].at);
     let border = border(mesh, edge, ends);

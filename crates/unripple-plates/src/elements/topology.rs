@@ -13,17 +13,17 @@ pub(crate) struct Topology {
     pub(crate) lengths: Vec<f64>,
 }
 
-/// A triangle at a vertex, and the edge by which the next one anticlockwise is reached.
+/// A triangle around a vertex, and the edge shared with the next triangle anticlockwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FanStep {
     /// Index of the triangle.
     pub(crate) triangle: usize,
-    /// Index of the vertex at the other end of that edge.
+    /// Index of the vertex at the other end of the shared edge.
     pub(crate) towards: usize,
 }
 
 impl Topology {
-    /// The neighbours within a mesh.
+    /// Finds the neighbours within a mesh.
     pub(crate) fn of(mesh: &Mesh) -> Self {
         let mut beside = vec![[None; 2]; mesh.edges.len()];
         for (t, triangle) in mesh.triangles.iter().enumerate() {
@@ -54,8 +54,8 @@ impl Topology {
         Some([leaves?, arrives?])
     }
 
-    /// The triangles at a vertex of a rim, given by its index, anticlockwise from the rim edge that starts
-    /// there.
+    /// The triangles around a vertex on a rim, given by its index, anticlockwise from the rim edge that
+    /// starts there.
     pub(crate) fn fan(&self, mesh: &Mesh, vertex: usize) -> Vec<FanStep> {
         let mut steps = Vec::new();
         let mut next = self.rims[vertex][0].and_then(|e| self.beside[e][0]);

@@ -21,11 +21,12 @@ const VALUES: [f64; 2] = [-1.0 / 3.0, 1.0 / 3.0];
 /// polynomial of degree 3 for the weight (1 - x²)².
 const SLOPES: [f64; 3] = [-0.577_350_269_189_625_8, 0.0, 0.577_350_269_189_625_8];
 
-/// A polynomial's coefficients.
+/// Coefficients of a polynomial, one per monomial.
 type Polynomial = [f64; COUNT];
 
-/// Adds bubble polynomials to a basis of quintics (rows of monomials, `unknowns` columns) so that it satisfies the conditions along the
-/// clamped and supported curves among a triangle's borders; `slopes` says for which borders the slope is zero.
+/// Adds bubble polynomials to a basis of quintics (rows of monomials, `unknowns` columns) so that it
+/// satisfies the edge conditions along the clamped and supported curves among a triangle's borders;
+/// `slopes` says on which borders the slope is zero.
 pub(crate) fn trim(
     frame: &Frame,
     vertices: [Point; 3],
@@ -98,7 +99,7 @@ fn one() -> Polynomial {
     p
 }
 
-/// A polynomial below the highest degree times a linear one.
+/// The product of a linear polynomial and a polynomial below the highest degree.
 fn times(p: &Polynomial, [c, x, y]: &[f64; 3]) -> Polynomial {
     let mut product = p.map(|v| v * c);
     for (v, [i, j]) in p.iter().zip(EXPONENTS).filter(|(_, [i, j])| i + j < HIGHEST) {

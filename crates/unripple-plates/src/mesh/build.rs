@@ -13,24 +13,27 @@ use crate::PhysicsError;
 use unripple_core::plane::{Rims, circumcircle, cross, doubled, middle, minus, norm};
 use unripple_core::{Outline, Point};
 
-/// Circumradius of a triangle, as a share of the desired edge length, above which there is room for another
-/// vertex: that of an equilateral triangle is 0.58. Larger, more wide triangles stay; at 0.58 even good
-/// ones would be filled.
+/// Circumradius of a triangle, relative to the desired edge length, above which there is room for another
+/// vertex: for an equilateral triangle it is 0.58. Larger, more wide triangles stay; at 0.58 even good
+/// triangles would get another vertex.
 const WIDE: f64 = 0.8;
-/// Least distance from other vertices of one put halfway between two rims, as a share of the width: 0.5 is the distance of the
-/// two ends. Above 0.5 none would ever be put there, and triangles would reach from rim to rim.
+/// Least distance from other vertices of a vertex placed halfway between two rims, relative to the width
+/// between the rims: its distance from the two rims is 0.5. Above 0.5 no vertex would ever be placed there,
+/// and triangles would reach from rim to rim.
 const BETWEEN: f64 = 0.4;
-/// Largest number of rounds of filling, each after a new triangulation; it ends when a round finds no room.
+/// Largest number of rounds in which vertices are added, each followed by a new triangulation; it ends when
+/// a round adds none.
 const FILLS: usize = 3;
-/// Rounds of smoothing, each followed by a new triangulation. With twice this value, meshes take longer and triangles change little.
+/// Number of rounds of smoothing, each followed by a new triangulation. With twice this value, meshes take
+/// longer and triangles change little.
 const ROUNDS: usize = 4;
-/// Number of times that rims are cut, each time twice as fine on curves and in narrow places, before meshing is
-/// given up.
+/// Number of times that rims are cut into edges, each time twice as finely on curves and in narrow places,
+/// before meshing is given up.
 const TRIES: i32 = 4;
 
-/// Triangles and the places of their vertices.
+/// A preliminary mesh: triangles and the positions of their vertices.
 pub(super) struct Sketch {
-    /// Places of the vertices, in metres: those of the rims first.
+    /// Positions of the vertices, in metres: those on the rims first.
     pub(super) points: Vec<Point>,
     /// Indices of each triangle's vertices, anticlockwise.
     pub(super) triangles: Vec<[usize; 3]>,
@@ -60,7 +63,7 @@ impl Mesh {
     }
 }
 
-/// All triangles; `None` if the rims' chords cross.
+/// The triangles of a preliminary mesh; `None` if the rims' chords cross.
 fn sketch(rims: &Rims, cut: &Cut, sizing: &Sizing) -> Option<Sketch> {
     let ends: Vec<[usize; 2]> = cut.edges.iter().map(|(ends, _)| *ends).collect();
     let chord = |ends: &[usize; 2]| ends.map(|i| cut.vertices[i].at);
@@ -88,7 +91,7 @@ fn sketch(rims: &Rims, cut: &Cut, sizing: &Sizing) -> Option<Sketch> {
     Some(Sketch { points: cloud.points, triangles })
 }
 
-/// Puts vertices into triangles that are too large, and onto edges from rim to rim.
+/// Adds vertices in triangles that are too large, and on edges that reach from rim to rim.
 fn fill(front: &mut Front, triangles: &[[usize; 3]], cut: &Cut) {
     let rims = cut.vertices.len();
     let known: Quick<(usize, usize), ()> = cut.edges.iter().map(|(ends, _)| (key(*ends), ())).collect();
@@ -107,13 +110,14 @@ fn fill(front: &mut Front, triangles: &[[usize; 3]], cut: &Cut) {
     }
 }
 
-/// An edge by its ends, in either direction.
+/// Key of an edge that does not depend on the order of its ends.
 fn key([a, b]: [usize; 2]) -> (usize, usize) {
     (a.min(b), a.max(b))
 }
 
-/// Least share of a triangle's height between the opposite vertex and the tangents of its curved edge: above 0 the quadrature
-/// weights of the cone from that vertex are positive, half is a margin. At 1 only straight edges would pass.
+/// Least distance of a vertex from the tangents of the opposite curved edge, relative to the triangle's
+/// height: above 0 the quadrature weights of the cone from that vertex are positive, half leaves a margin.
+/// At 1 only straight edges would pass.
 const CLEAR: f64 = 0.5;
 
 /// Whether a triangle is star-shaped with respect to the vertex opposite its curved edge, with a margin: that vertex lies well to
@@ -128,7 +132,8 @@ fn is_clear(rims: &Rims, span: &Span, [a, b, top]: [Point; 3]) -> bool {
     })
 }
 
-/// The mesh of a sketch; `None` if a triangle is inverted or too strongly cut by its curved edge.
+/// Makes the mesh from a preliminary one; `None` if a triangle is inverted or cut too much by its curved
+/// edge.
 fn assemble(rims: &Rims, cut: &Cut, sketch: Sketch) -> Option<Mesh> {
     let inner = |p: &Point| Vertex { at: *p, on: Vec::new() };
     let mut vertices = cut.vertices.clone();

@@ -1,4 +1,4 @@
-//! A spatial hash of vertices and rim edges, to find those near a place in constant time.
+//! A spatial hash of vertices and rim edges, to find those near a point in constant time.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -35,19 +35,20 @@ impl Hasher for Mix {
     }
 }
 
-/// A map with that hash.
+/// A hash map with the hash function [`Mix`].
 pub(super) type Quick<K, V> = HashMap<K, V, BuildHasherDefault<Mix>>;
 
-/// A place that new vertices must keep their distance from: a vertex, or the middle of a rim's edge.
+/// A point from which new vertices must keep a distance: a vertex, or the middle of a rim's edge.
 #[derive(Clone, Copy, Debug)]
 struct Site {
     at: Point,
-    /// The vertex, if it is one; else others keep the distance `clear`.
+    /// Index of the vertex if the point is one; `None` for the middle of a rim's edge, from which vertices
+    /// keep the distance `clear`.
     vertex: Option<usize>,
     clear: f64,
 }
 
-/// The result of a search for vertices or rims too near a place.
+/// The result of a search for vertices or rims too near a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Near {
     /// Nothing is too near.
@@ -65,7 +66,7 @@ pub(super) struct Cells {
     levels: Vec<i32>,
 }
 
-/// The exponent of two of a cell's width for edges of some length (m).
+/// The exponent of two of a cell's width, for places where edges have the length `size` (m).
 fn level(size: f64) -> i32 {
     size.log2().ceil() as i32
 }
@@ -89,7 +90,7 @@ impl Cells {
         self.push(Site { at, vertex: None, clear: 0.55 * length }, length);
     }
 
-    /// Puts a site into its cell of the level of edges of `size` (m).
+    /// Puts a site into its cell, at the cell width for edges of the length `size` (m).
     fn push(&mut self, site: Site, size: f64) {
         let level = level(size);
         let w = width(level);
@@ -100,7 +101,8 @@ impl Cells {
         }
     }
 
-    /// The vertex or rim edge that is nearer to a place (m) than `radius` (m), where edges have the length `size` (m).
+    /// Searches for a vertex nearer to a point (m) than `radius` (m), or a rim edge too near to it, where
+    /// edges have the length `size` (m).
     pub(super) fn near(&self, p: Point, size: f64, radius: f64) -> Near {
         let own = level(size);
         let (mut best, mut found) = (radius * radius, Near::Nothing);

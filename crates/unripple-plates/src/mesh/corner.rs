@@ -1,4 +1,5 @@
-//! Corners of an outline and the singularity there (Williams 1952): how small edges must be.
+//! Corners of an outline and the singularity of the solution there (Williams 1952): how short the mesh's
+//! edges must be.
 
 use super::field::GROWTH;
 use super::williams::exponent;
@@ -7,35 +8,39 @@ use std::f64::consts::PI;
 use unripple_core::plane::Rims;
 use unripple_core::{Edge, Outline};
 
-/// Shortest edge at a corner, as a share of the local size: there coordinates have about seven digits
-/// left. Halved, the strongest singularities get one or two more rings of triangles.
+/// Shortest edge at a corner, relative to the edge length elsewhere: there coordinates have about seven
+/// digits left. Halved, the strongest singularities get one or two more rings of triangles.
 const FLOOR: f64 = 1e-9;
-/// Relative error of the lowest eigenvalues by rounding where a bent sheet moves at a corner, for edges there as long as the sheet is
-/// wide: measured at a slot in a free plate, where edges of 2e-6 widths leave 1e-4 at four such corners. A tenth of it, and edges would be
-/// chosen for which rounding is all of the error.
+/// Relative rounding error of the lowest eigenvalues where a sheet with bending stiffness can move at a
+/// corner, for edges there as long as the sheet is wide: measured at a slot in a free plate, where edges of
+/// 2e-6 widths cause an error of 1e-4 at four such corners. A tenth of it, and edges would be chosen for
+/// which all of the error is rounding.
 const ROUNDED: f64 = 1e-16;
-/// Power up to which an element at a corner misses the share [`LOOSE`] of the singular energy it holds. See
+/// Power p up to which an element at a corner misses the share [`LOOSE`] of the singular energy in it. See
 /// [`missed`].
 const ROUGH: f64 = 0.6;
 /// Share of the singular energy that an element at a corner misses at low powers, measured; see
 /// [`missed`].
 const LOOSE: f64 = 0.2;
-/// Exponential decay of that share with the power beyond [`ROUGH`], measured; see [`missed`].
+/// Exponential decay of the missed share as the power increases beyond [`ROUGH`], measured; see [`missed`].
 const DECAY: f64 = 5.0;
 
-/// Sides that meet at an angle this near to a straight one, in radians, continue each other, as in the elements at their vertices.
+/// Sides that meet at an angle within this of a straight angle, in radians, count as one smooth curve, as
+/// in the elements at their vertices.
 const SMOOTH: f64 = 1e-3;
-/// Accuracy for which powers are looked for that may be hidden from a comparison of meshes. Less, and corners are looked at that
-/// matter at no accuracy that can be reached.
+/// Accuracy for which singular powers are computed that a comparison of two meshes may not show. Less, and
+/// corners are examined that matter at no accuracy that can be reached.
 const FAINT: f64 = 1e-7;
-/// Power below which the energy missed by elements as large as elsewhere is nearly the same on two meshes: with edges 1.3 times
-/// shorter it falls by less than a seventh. Doubled, corners would count that refinement resolves.
+/// Power p below which the energy missed by elements of the common size is nearly equal on two meshes: with
+/// edges 1.3 times shorter it falls by less than a seventh. Doubled, corners would count that refinement
+/// resolves.
 const SLOW: f64 = 0.3;
-/// Share of the singular energy that rings of triangles miss whose size grows by [`GROWTH`] per distance, whatever the smallest, for a
-/// power halfway between whole numbers: measured on supported L-shaped plates, 5e-5. It falls as the eighth power of the growth.
+/// Share of the singular energy missed by rings of triangles whose size grows by [`GROWTH`] per distance,
+/// whatever the smallest size, for a power halfway between whole numbers: measured on supported L-shaped
+/// plates, 5e-5. It falls as the eighth power of the growth.
 const GRADED: f64 = 1e-4;
-/// Share of the error by the smallest edges at a corner that is added to what a comparison of meshes tells: the errors that edges are
-/// chosen for are about four times those found on regular polygons.
+/// Share of the error due to the smallest edges at a corner that is added to the error from a comparison of
+/// meshes: the errors for which edges are chosen are about four times those found on regular polygons.
 const LEFT: f64 = 0.25;
 
 /// A corner where two sides meet.
@@ -43,17 +48,17 @@ const LEFT: f64 = 0.25;
 pub(crate) struct Corner {
     /// The interior angle of the sheet, in radians from 0 to 2π.
     pub(crate) angle: f64,
-    /// The edge conditions of the side that ends there and of the one that starts there.
+    /// The edge conditions of the side that ends at the corner and of the side that starts there.
     pub(crate) edges: [Edge; 2],
-    /// How much the curvature of the rim jumps there if the sides continue each other, in 1/m; else 0.
+    /// Jump of the rim's curvature at the corner, in 1/m, if the sides meet at a straight angle; else 0.
     pub(crate) jump: f64,
     /// Width of the sheet, in metres.
     pub(crate) width: f64,
 }
 
 impl Corner {
-    /// The relative error of the lowest eigenvalues by rounding, for edges there as long as those elsewhere (`size`, in metres). It rises
-    /// as the inverse square of the edge length.
+    /// The relative rounding error of the lowest eigenvalues, if edges at the corner have the length `size`
+    /// (m) of those elsewhere. It rises as the inverse square of the edge length.
     fn rounding(&self, size: f64, bending: bool) -> f64 {
         let rounds = bending && self.edges.iter().all(|edge| edge.moves());
         if rounds { ROUNDED * (self.width / size).powi(2) } else { 0.0 }
@@ -77,9 +82,9 @@ pub(crate) fn corners(outline: &Outline) -> Result<Vec<Corner>, PhysicsError> {
     Ok((0..rims.sides.len()).map(corner).collect())
 }
 
-/// The smallest edge at a corner, as a share of the edge length elsewhere (`size`, in metres), for which the error of the elements in
-/// the singular part of the solution changes no eigenvalue by more than the relative `accuracy`, or by as much as rounding does; 1 if no
-/// smaller edge is needed, at least 1e-9.
+/// The smallest edge at a corner, relative to the edge length elsewhere (`size`, in metres), for which the
+/// elements' error in the singular part of the solution changes no eigenvalue by more than the relative
+/// `accuracy`, or by as much as rounding does; 1 if no smaller edge is needed, at least 1e-9.
 ///
 /// If the solution is singular as r^ν, the energy that elements of size r miss is as (r/size)^(2p), p = ν - 1 with bending and ν
 /// without.
@@ -89,16 +94,18 @@ pub(crate) fn smallest_edge(corner: &Corner, size: f64, bending: bool, accuracy:
         .map_or(1.0, |s| s.smallest_edge(accuracy).max(s.floor(rounding)))
 }
 
-/// The number of corners where the singular part would change eigenvalues by more than the relative `accuracy` with edges of one
-/// `size` (m) there as elsewhere.
+/// The number of corners where the singular part of the solution would change eigenvalues by more than the
+/// relative `accuracy` if edges had the same length `size` (m) there as elsewhere.
 pub(crate) fn singular(corners: &[Corner], size: f64, bending: bool, accuracy: f64) -> usize {
     corners.iter().filter(|corner| Singularity::of(corner, size, bending, accuracy).is_some()).count()
 }
 
-/// The relative error of eigenvalues by the singular parts at corners that two meshes do not tell, since both miss nearly the same
-/// of it: where the smallest edges are at their least, or slow powers are not resolved at all; what rings of triangles around a
-/// corner miss, each longer by `growth` per distance than the one within; and, since few edges along a short side may be as many on both
-/// meshes, a share of what is left elsewhere. `size` is the edge length elsewhere (m), `accuracy` the one that corners are graded for.
+/// The relative error of eigenvalues, due to singular parts at corners, that a comparison of two meshes
+/// does not show, since both miss nearly equal parts: where the smallest edges are at their least, or slow
+/// powers are not resolved at all; what rings of triangles around a corner miss, each longer by `growth`
+/// per distance than the ring inside; and, since a short side may have equally few edges on both meshes, a
+/// share of the remaining error. `size` is the edge length elsewhere (m), `accuracy` the one for which
+/// corners are refined.
 pub(crate) fn unresolved(corners: &[Corner], size: f64, bending: bool, accuracy: f64, growth: f64) -> f64 {
     let of = |corner: &Corner| {
         // A singular part that needs no smaller edge may still be one of many.
@@ -128,29 +135,30 @@ pub(crate) fn unresolved(corners: &[Corner], size: f64, bending: bool, accuracy:
 struct Singularity {
     /// The power p by which the energy within a radius r falls: as r^(2p).
     power: f64,
-    /// Its coefficient, relative to that of a right-angled re-entrant corner, at most 1.
+    /// The coefficient of the singular part, relative to that of a right-angled re-entrant corner, at
+    /// most 1.
     strength: f64,
 }
 
 impl Singularity {
-    /// The strongest singular part that may change an eigenvalue by more than the relative `accuracy`, with edges of some size (m)
-    /// around the corner.
+    /// The strongest singular part that may change an eigenvalue by more than the relative `accuracy`, if
+    /// edges around the corner have the length `size` (m).
     fn of(corner: &Corner, size: f64, bending: bool, accuracy: f64) -> Option<Self> {
         Self::of_angle(corner.angle, corner.edges, bending, accuracy)
             .or_else(|| Self::of_jump(corner, size, bending))
             .filter(|s| s.strength * missed(s.power) > accuracy)
     }
 
-    /// That where the curvature of a rim jumps. The moment or the slope across the rim, of which curvature takes a part, jumps as well:
-    /// on a supported or free rim the second derivatives of the deflection, on a clamped one and on membranes derivatives one order
-    /// higher.
+    /// The singular part where the curvature of a rim jumps. The moment or the slope across the rim, to
+    /// which curvature contributes, jumps as well: on a supported or free rim the second derivatives of the
+    /// deflection, on a clamped rim and on membranes derivatives one order higher.
     fn of_jump(corner: &Corner, size: f64, bending: bool) -> Option<Self> {
         let smooth = !bending || corner.edges == [Edge::Clamped; 2];
         let strength = (corner.jump * size).powi(2).min(1.0);
         (strength > 0.0).then_some(Self { power: if smooth { 2.0 } else { 1.0 }, strength })
     }
 
-    /// That of an angle.
+    /// The singular part at a corner with a given interior angle.
     fn of_angle(angle: f64, edges: [Edge; 2], bending: bool, accuracy: f64) -> Option<Self> {
         // Between equal edge conditions the singular part vanishes as the angle approaches a straight one: its energy as the angle
         // squared, but between supported edges with bending as the angle, since all corners of a polygon together keep it from the
@@ -172,13 +180,14 @@ impl Singularity {
         power.is_finite().then_some(Self { power, strength })
     }
 
-    /// The smallest edge of any use, as a share of the edge length elsewhere: where the error by `rounding` (for edges as long as
-    /// elsewhere) is as large as what elements there miss; at least [`FLOOR`].
+    /// The smallest edge of any use, relative to the edge length elsewhere: where rounding error equals
+    /// what elements there miss; at least [`FLOOR`]. `rounding` is the rounding error for edges as long as
+    /// elsewhere.
     fn floor(self, rounding: f64) -> f64 {
         (rounding / (self.strength * missed(self.power))).powf(0.5 / (self.power + 1.0)).clamp(FLOOR, 1.0)
     }
 
-    /// The smallest edge for an accuracy, see [`smallest_edge`].
+    /// The smallest edge for a given accuracy, see [`smallest_edge`].
     fn smallest_edge(self, accuracy: f64) -> f64 {
         (accuracy / (self.strength * missed(self.power))).powf(0.5 / self.power).clamp(FLOOR, 1.0)
     }
@@ -192,8 +201,8 @@ fn missed(power: f64) -> f64 {
     LOOSE * (-DECAY * (power - ROUGH).max(0.0)).exp()
 }
 
-/// The least power ν of r^ν at the corner of a membrane that is not a whole number: kπ/α between equal edges, (k - ½)π/α
-/// between a fixed and a free one. Infinite if there is none below `most`.
+/// The least exponent ν of r^ν at the corner of a membrane that is not a whole number: kπ/α between equal
+/// edges, (k - ½)π/α between a fixed and a free edge. Infinite if there is none below `most`.
 fn membrane(angle: f64, edges: [Edge; 2], most: f64) -> f64 {
     let step = PI / angle;
     let first = if edges[0].moves() == edges[1].moves() { step } else { 0.5 * step };

@@ -9,8 +9,8 @@ use std::f64::consts::PI;
 use unripple_core::plane::{Bounds, Rims};
 use unripple_core::{Edge, OutOfRange, Outline, Point};
 
-/// Number of halvings of a cell after which its centre stands for all of it: 30 along each direction, a billionth of the
-/// outline. One more doubles the cells only where shorter edges are desired.
+/// Number of halvings of a cell after which its centre is taken for all of it: 30 along each direction, a
+/// billionth of the outline. One more doubles the cells only where shorter edges are desired.
 const DEEPEST: u32 = 60;
 
 /// Number of vertices up to which an estimate integrates the density of vertices; for more, a rough sum is used, so that an
@@ -21,7 +21,7 @@ const COUNTED: f64 = 1e6;
 const MOST: f64 = 1e7;
 
 impl Mesh {
-    /// Estimated number of vertices of a mesh, from its rims and the desired edge lengths within.
+    /// Estimated number of vertices of a mesh, from the rims of the outline and the desired edge lengths.
     ///
     /// # Errors
     /// As [`Mesh::new`], except for too many vertices.
@@ -55,7 +55,7 @@ pub(super) fn check_count(rims: &Rims, area: f64, sizing: &Sizing) -> Result<(),
     )))
 }
 
-/// The number of vertices for a sizing, without those for curves, corners and narrow places.
+/// A rough number of vertices for a sizing, without the extra ones at curves, corners and narrow places.
 fn rough(rims: &Rims, area: f64, sizing: &Sizing) -> f64 {
     let each = |size: f64| size * size * 0.75_f64.sqrt();
     let inside = area / each(sizing.size);

@@ -3,18 +3,18 @@
 use unripple_core::Point;
 use unripple_core::plane::{Bounds, Node, Tree};
 
-/// A place where edges of some length are desired.
+/// A place around which edges of a given length are desired.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Source {
-    /// Place around which the length is desired, in metres.
+    /// The place, in metres.
     pub(super) at: Point,
-    /// Radius around it within which the length applies, in metres.
+    /// Radius around the place within which the desired length applies, in metres.
     pub(super) reach: f64,
-    /// The length, in metres.
+    /// The desired edge length, in metres.
     pub(super) edge: f64,
 }
 
-/// The desired edge length at any place: that of the sources, growing with the distance from them.
+/// The desired edge length at any point: the length of each source, growing with the distance from it.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     size: f64,
@@ -23,15 +23,17 @@ pub(super) struct Field {
     tree: Tree,
 }
 
-/// Largest growth of the edge length per distance: along a line away from a source each edge is e^0.65 = 1.9 times as long as the
-/// one before. With twice this value, meshes have fewer triangles, of worse shape.
+/// Largest growth of the edge length per distance: along a line away from a source each edge is e^0.65 =
+/// 1.9 times as long as the edge before. With twice this value, meshes have fewer triangles, of worse
+/// shape.
 pub(crate) const GROWTH: f64 = 0.65;
-/// Sources of more than this share of the common length are ignored: they would cost a search at every place for edges at
-/// most 15 % shorter.
+/// Sources with an edge length above this share of the common length are ignored: they would cost a search
+/// at every point for edges at most 15 % shorter.
 const NEARLY: f64 = 0.85;
 
 impl Field {
-    /// A field of edges no longer than `size` (m), longer by `growth` per distance from each source.
+    /// A field of edges no longer than `size` (m), whose length grows by `growth` per distance from each
+    /// source.
     pub(super) fn new(size: f64, growth: f64, sources: impl IntoIterator<Item = Source>) -> Self {
         let sources: Vec<Source> = sources.into_iter().filter(|s| s.edge < NEARLY * size).collect();
         let boxes: Vec<(Bounds, f64)> =
@@ -50,7 +52,7 @@ impl Field {
         least
     }
 
-    /// Whether the desired edge length is the common one everywhere in a box.
+    /// Whether the desired edge length is the common length everywhere in a box.
     pub(super) fn is_even(&self, bounds: &Bounds) -> bool {
         let shorter = |edge: f64, apart: f64| edge + self.growth * apart < self.size;
         let mut even = true;

@@ -11,14 +11,15 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use unripple_core::Point;
 use unripple_core::plane::{Rims, along, doubled, middle, minus, norm, turned};
 
-/// An existing vertex nearer than this share of the edge length is used instead of a new one. Doubled (above 1), no new
-/// vertex would ever be far enough from existing ones.
+/// An existing vertex nearer than this share of the edge length is used instead of a new vertex. Doubled
+/// (above 1), no new vertex would ever be far enough from existing ones.
 const SAME: f64 = 0.72;
 
-/// Points that become vertices: first those of the rims, then others that must stay in place, then the rest.
+/// Points that become vertices: first those of the rims, then others that must stay in place, then all
+/// others.
 #[derive(Clone, Debug)]
 pub(super) struct Cloud {
-    /// Places of the points, in metres.
+    /// Positions of the points, in metres.
     pub(super) points: Vec<Point>,
     /// Desired edge length at each point, in metres.
     pub(super) sizes: Vec<f64>,
@@ -26,21 +27,21 @@ pub(super) struct Cloud {
     pub(super) fixed: usize,
 }
 
-/// A cloud of points while it grows.
+/// The points placed so far, and what is needed to place more (the advancing front).
 pub(super) struct Front<'a> {
-    /// The points so far.
+    /// The points placed so far.
     pub(super) cloud: Cloud,
-    /// A spatial hash of the points, to find those too near a place.
+    /// A spatial hash of the points, to find those too near a position.
     pub(super) cells: Cells,
     field: &'a Field,
     region: &'a Region,
-    /// Pairs of points to whose left a third point is to be placed: the shortest first, and then the oldest.
+    /// Pairs of points to whose left a third point is to be placed, in order of length, then of age.
     waiting: BinaryHeap<Reverse<(i32, usize, [usize; 2])>>,
     seen: Quick<(usize, usize), ()>,
 }
 
 impl<'a> Front<'a> {
-    /// A front that starts from the rims, and from vertices at the given places (m).
+    /// A front that starts from the rims, and from vertices at the points `places` (m).
     pub(super) fn new(rims: &Rims, cut: &'a Cut, region: &'a Region, places: &[Point]) -> Self {
         let points: Vec<Point> = cut.vertices.iter().map(|v| v.at).collect();
         let mut sizes = vec![f64::INFINITY; points.len()];
@@ -63,7 +64,7 @@ impl<'a> Front<'a> {
         front
     }
 
-    /// Puts vertices at the given places, each with six around it.
+    /// Places vertices at the given points, each with six vertices around it.
     fn put_places(&mut self, places: &[Point]) {
         let centres: Vec<usize> = places.iter().filter_map(|p| self.put(*p).ok()).collect();
         self.cloud.fixed = self.cloud.points.len();
@@ -79,7 +80,7 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Puts vertices that divide wide corners into equal angles.
+    /// Places vertices that divide wide corners into equal angles.
     fn put_fans(&mut self, rims: &Rims, cut: &Cut) {
         let mut corners: Vec<usize> = (0..cut.starts.len()).collect();
         corners.sort_by(|i, j| self.cloud.sizes[cut.starts[*i]].total_cmp(&self.cloud.sizes[cut.starts[*j]]));
@@ -108,12 +109,13 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Adds a point (m) and returns its index, unless it is outside the region or too near others.
+    /// Adds a point (m) and returns its index, unless the point is outside the region or too near others.
     pub(super) fn put(&mut self, p: Point) -> Result<usize, Near> {
         self.put_apart(p, SAME * self.field.at(p))
     }
 
-    /// Adds a point (m) and returns its index, unless it is outside or others are nearer than `apart` (m).
+    /// Adds a point (m) and returns its index, unless the point is outside the region or others are nearer
+    /// than `apart` (m).
     pub(super) fn put_apart(&mut self, p: Point, apart: f64) -> Result<usize, Near> {
         let size = self.field.at(p);
         match self.cells.near(p, size, apart) {
@@ -128,7 +130,7 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Queues a pair of points for a third, unless it was queued before.
+    /// Queues a pair of points to which a third point is to be added, unless the pair was queued before.
     fn wait(&mut self, pair: [usize; 2]) {
         let [a, b] = pair.map(|i| self.cloud.points[i]);
         let (length, size) = (a.distance(b), self.field.at(middle(a, b)));
@@ -138,7 +140,7 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Fills the region, the shortest pairs first.
+    /// Fills the region with points, the shortest pairs first.
     pub(super) fn advance(&mut self) {
         while let Some(Reverse((_, _, pair))) = self.waiting.pop() {
             let third = match self.put(self.apex(pair)) {
@@ -153,7 +155,8 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// The place of a third point that makes the triangle equilateral, or as nearly so as the growth of edges allows.
+    /// The position of a third point that makes the triangle equilateral, or as nearly so as the growth of
+    /// edges allows.
     fn apex(&self, pair: [usize; 2]) -> Point {
         let [a, b] = pair.map(|i| self.cloud.points[i]);
         let (ab, m) = (minus(b, a), middle(a, b));

@@ -21,14 +21,15 @@ pub(crate) use corner::{Corner, corners, singular, unresolved};
 pub(crate) use field::GROWTH;
 pub(crate) use sizing::Sizing;
 
-/// A mesh of triangles that conforms to the outline; along curved sides an edge stands for a piece of the curve.
+/// A mesh of triangles that conforms to the outline; along a curved side, an edge represents a piece of the
+/// curve.
 #[derive(Clone, Debug)]
 pub(crate) struct Mesh {
     /// All sides of all rims, with the sheet to their left, and their edge conditions.
     pub(crate) sides: Vec<(Side, Edge)>,
     /// The vertices; those on a rim lie on their sides exactly.
     pub(crate) vertices: Vec<Vertex>,
-    /// Edges of the triangles, each once.
+    /// Edges of the triangles; an edge shared by two triangles is listed once.
     pub(crate) edges: Vec<MeshEdge>,
     /// Triangles, anticlockwise, that cover the sheet.
     pub(crate) triangles: Vec<Triangle>,
@@ -37,10 +38,10 @@ pub(crate) struct Mesh {
 /// A vertex of a mesh.
 #[derive(Clone, Debug)]
 pub(crate) struct Vertex {
-    /// Place of the vertex, in metres.
+    /// Position of the vertex, in metres.
     pub(crate) at: Point,
-    /// The sides it lies on, and the parameter there: none inside, one on a side, two where sides meet (for a single
-    /// closed side its end and its start).
+    /// The sides on which the vertex lies, with the side's parameter there: none inside the sheet, one on a
+    /// side, two where sides meet (for a single closed side, its end and its start).
     #[cfg_attr(not(test), allow(dead_code))] // What tests of meshes are made of.
     pub(crate) on: Vec<(usize, f64)>,
 }
@@ -48,9 +49,10 @@ pub(crate) struct Vertex {
 /// An edge of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MeshEdge {
-    /// Indices of its ends. On a rim they are in the direction of the side, so that the sheet is to the left.
+    /// Indices of the vertices at the edge's ends. On a rim they are in the direction of the side, so that
+    /// the sheet is to the left.
     pub(crate) ends: [usize; 2],
-    /// The piece of a side that the edge represents; `None` inside.
+    /// The piece of a side that the edge represents; `None` for an edge inside the sheet.
     pub(crate) span: Option<Span>,
 }
 

@@ -6,8 +6,9 @@ use std::f64::consts::PI;
 use unripple_core::Point;
 use unripple_core::plane::{along, middle, minus, norm, sharpness, turned};
 
-/// Cotangent of the least angle (34°) from which triangles count as well shaped, so that their least angle may become smaller
-/// in favour of their neighbours. With twice this value, angles down to 19° would be left alone.
+/// Cotangent of the smallest angle (34°) above which triangles count as well shaped, so that the angle may
+/// become smaller in favour of their neighbours. With twice this value, angles down to 19° would be left
+/// unchanged.
 const FAIR: f64 = 1.46;
 
 /// The triangles around each vertex.
@@ -17,7 +18,8 @@ pub(super) struct Stars {
 }
 
 impl Stars {
-    /// The triangles around each of `vertices` vertices; each triangle (of indices) is listed with that vertex first.
+    /// The triangles around each of `vertices` vertices; each triangle (of vertex indices) is listed with
+    /// that vertex first.
     pub(super) fn new(vertices: usize, triangles: &[[usize; 3]]) -> Self {
         let mut first = vec![0; vertices + 1];
         triangles.iter().flatten().for_each(|v| first[v + 1] += 1);
@@ -32,21 +34,21 @@ impl Stars {
         Self { first, triangles: sorted }
     }
 
-    /// The triangles around a vertex, by its index; indices of vertices, its own first.
+    /// The triangles around the vertex with this index, as indices of vertices, that vertex first.
     pub(super) fn of(&self, vertex: usize) -> &[[usize; 3]] {
         &self.triangles[self.first[vertex]..self.first[vertex + 1]]
     }
 
-    /// Cotangent of the least angle of the triangles around a vertex, were it at `p`.
+    /// Cotangent of the smallest angle of the triangles around a vertex if it were at the point `p`.
     fn sharpness(&self, vertex: usize, p: Point, points: &[Point]) -> f64 {
         let each = self.of(vertex).iter().map(|t| sharpness([p, points[t[1]], points[t[2]]]));
         each.fold(f64::NEG_INFINITY, f64::max)
     }
 }
 
-/// Moves each vertex to where its edges have the desired lengths on average (the balance of springs of Persson
-/// and Strang, *SIAM Rev.* 46, 329, 2004), unless angles get worse; `sweeps` is the number of passes over all
-/// vertices.
+/// Moves each vertex to where its edges have the desired lengths on average (the balance of springs of
+/// Persson and Strang, *SIAM Rev.* 46, 329, 2004), unless the smallest angle would decrease; `sweeps` is
+/// the number of passes over all vertices.
 pub(super) fn relax(cloud: &mut Cloud, triangles: &[[usize; 3]], field: &Field, sweeps: usize) {
     let stars = Stars::new(cloud.points.len(), triangles);
     for _ in 0..sweeps {

@@ -1,4 +1,4 @@
-//! Rims cut into edges whose lengths follow from the sizing, the curvature and the width of narrow places.
+//! Rims cut into edges, whose lengths follow from the sizing, the curvature and the width of narrow places.
 
 use super::field::{Field, Source};
 use super::sizing::Sizing;
@@ -7,20 +7,21 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use unripple_core::plane::{Rims, norm, turned};
 use unripple_core::{Edge, Point};
 
-/// Greatest turn of a rim edge, in radians: a small hole gets at least 14 edges. Doubled, 7.
+/// Greatest turn of a rim edge, in radians: a small hole gets at least 14 edges. With twice this value, it
+/// gets 7.
 const TURN: f64 = 0.45;
 /// Greatest length of a rim edge as a share of the width of the sheet there. With twice this value, edges would be longer than narrow
 /// places are wide.
 const GAP: f64 = 0.7;
 /// Number of samples of the desired edge length per edge when a side is cut. With twice this value, cutting takes twice as long.
 const STEPS: f64 = 6.0;
-/// Shortest edge length, as a share of the extent: above the resolution of coordinates.
+/// Shortest edge length, relative to the extent of the outline: above the resolution of coordinates.
 const SHORTEST: f64 = 1e-12;
-/// Rounds in which short edges on one side shorten those nearby. More change only edges far from short ones,
-/// and little.
+/// Number of rounds in which short edges on one side shorten those nearby. More rounds change only edges
+/// far from short ones, and little.
 const ROUNDS: usize = 3;
 
-/// The rims cut into edges.
+/// The rims of an outline, cut into edges.
 #[derive(Clone, Debug)]
 pub(super) struct Cut {
     /// The vertices, rim by rim, in order.
@@ -29,11 +30,11 @@ pub(super) struct Cut {
     pub(super) edges: Vec<([usize; 2], Span)>,
     /// Index of the vertex at which each side starts.
     pub(super) starts: Vec<usize>,
-    /// The desired edge length at any place.
+    /// The desired edge length at any point.
     pub(super) field: Field,
 }
 
-/// Cuts rims for a sizing, and finer by the factor `finer` on curves and in narrow places.
+/// Cuts rims into edges for a sizing, and finer by the factor `finer` on curves and in narrow places.
 pub(super) fn cut(rims: &Rims, sizing: &Sizing, finer: f64) -> Cut {
     let wanted = Wanted { rims, sizing, finer };
     let given = wanted.given();
@@ -62,7 +63,7 @@ struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
-    /// The sources of the sizing itself, and of short sides.
+    /// The places with short edges that the sizing itself asks for, and those at short sides.
     fn given(&self) -> Vec<Source> {
         let near = self.sizing.near.iter();
         let near = near.map(|(at, reach, edge)| Source { at: *at, reach: reach.max(*edge), edge: *edge });
@@ -75,7 +76,8 @@ impl Wanted<'_> {
         near.chain(corners).collect()
     }
 
-    /// The greatest edge length (m) at a place of a rim: by its curvature, the distance of the opposite rim, and the edge condition.
+    /// The greatest edge length (m) at a point of a rim: limited by the rim's curvature, the distance of
+    /// the opposite rim, and the edge condition.
     fn limit(&self, side: usize, t: f64) -> f64 {
         let (curve, edge) = self.rims.sides[side];
         let held = match (edge, self.sizing.edge_size) {
@@ -92,13 +94,13 @@ impl Wanted<'_> {
         held.min(bend.max(least)).min(gap.max(least))
     }
 
-    /// The source by which an edge limits the length of those around it.
+    /// The source in the size field by which a rim edge limits the length of edges around it.
     fn source(&self, span: &Span) -> Source {
         let t = 0.5 * (span.from + span.to);
         Source { at: self.rims.sides[span.side].0.at(t), reach: 0.0, edge: self.limit(span.side, t) }
     }
 
-    /// All sides cut.
+    /// The edges into which each side is cut.
     fn spans(&self, field: &Field) -> Vec<Vec<Span>> {
         (0..self.rims.sides.len()).map(|i| self.cut_side(i, field)).collect()
     }
@@ -130,7 +132,8 @@ impl Wanted<'_> {
     }
 }
 
-/// The parameter at the end of part `i` of `count` parts that are equal in the measure of `table`.
+/// The parameter at the end of part `i` of `count` parts of a side that are equal in the measure of
+/// `table`.
 fn place(table: &[(f64, f64)], edges: f64, i: usize, count: usize) -> f64 {
     if i == 0 || i == count {
         return if i == 0 { 0.0 } else { 1.0 };
@@ -141,7 +144,7 @@ fn place(table: &[(f64, f64)], edges: f64, i: usize, count: usize) -> f64 {
     t + (u - t) * ((goal - e) / (f - e).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
 }
 
-/// The vertices and edges of the spans.
+/// Joins the pieces of all sides to vertices and edges.
 fn join(rims: &Rims, spans: &[Vec<Span>], field: impl Fn(&mut dyn Iterator<Item = &Span>) -> Field) -> Cut {
     let (mut vertices, mut edges) = (Vec::new(), Vec::new());
     let mut starts = vec![0; rims.sides.len()];
@@ -169,7 +172,7 @@ fn join(rims: &Rims, spans: &[Vec<Span>], field: impl Fn(&mut dyn Iterator<Item 
     Cut { vertices, edges, starts, field }
 }
 
-/// Best number of triangles at a corner of some angle (rad): about 60° each.
+/// Best number of triangles at a corner with a given angle (rad): about 60° each.
 pub(super) fn fan(angle: f64) -> usize {
     ((angle / (PI / 3.0)).round() as usize).max(1)
 }

@@ -14,10 +14,11 @@ pub(crate) struct Sizing {
     /// Places with shorter edges: the place, the radius around it, and the edge length there, all in metres. A vertex is put at
     /// each place that is not too near a rim or another place.
     pub(crate) near: Vec<(Point, f64, f64)>,
-    /// Edge length at the start of each side, in metres, in the order of [`Mesh::sides`](super::Mesh::sides); edges grow
-    /// from there. Infinite or not listed for no limit.
+    /// Edge length at the start of each side, in metres, in the order of
+    /// [`Mesh::sides`](super::Mesh::sides); edges grow from there. Infinite, or missing at the end of the
+    /// list, for no limit.
     pub(crate) corners: Vec<f64>,
-    /// Greatest length along rims that are clamped or supported, in metres.
+    /// Greatest edge length along rims that are clamped or supported, in metres.
     pub(crate) edge_size: Option<f64>,
     /// Growth of the edge length per distance from shorter edges, more than 0 and at most [`GROWTH`](super::GROWTH).
     pub(crate) growth: f64,
@@ -33,8 +34,8 @@ impl Sizing {
         Self { size, near, corners, edge_size: None, growth: GROWTH, finer: 1.0 }
     }
 
-    /// This sizing with edges short enough at the corners of an outline for eigenvalues of the relative
-    /// `accuracy`.
+    /// Returns this sizing, with edges at the corners of an outline short enough for eigenvalues with the
+    /// relative `accuracy`.
     pub(crate) fn refined(mut self, corners: &[Corner], bending: bool, accuracy: f64) -> Self {
         let smallest = |corner: &Corner| {
             let share = smallest_edge(corner, self.size, bending, accuracy);

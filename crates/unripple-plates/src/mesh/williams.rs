@@ -6,11 +6,11 @@ use unripple_linalg::c64;
 
 /// Poisson's ratio assumed at free edges, a common value: the exponents depend little on it.
 const POISSON: f64 = 0.3;
-/// Exponents this near to a whole number count as whole: the solution is a polynomial, which elements represent
-/// exactly. Above the error of Newton's method, 1e-9.
+/// Exponents within this of a whole number count as whole: the solution is then a polynomial, which
+/// elements represent exactly. Above the error of Newton's method, 1e-9.
 const WHOLE: f64 = 1e-5;
-/// Spacing of the starting points of Newton's method, along the real and the imaginary axis. With twice this value, two neighbours may
-/// converge to the same root and miss one between.
+/// Spacing of the starting points of Newton's method, along the real and the imaginary axis. With twice
+/// this value, two neighbours may converge to the same root and miss one between them.
 const STEP: [f64; 2] = [0.1, 0.4];
 /// Number of starting points along the imaginary axis, up to 1.2. More find roots that oscillate faster.
 const ROWS: u32 = 4;
@@ -38,7 +38,7 @@ pub(super) fn exponent(angle: f64, edges: [Edge; 2], most: f64) -> f64 {
     if best < most { best } else { f64::INFINITY }
 }
 
-/// The least exponent between supported edges, from r^(kπ/α) sin(kπθ/α) and r² times it.
+/// The least exponent between supported edges, from the solutions r^(kπ/α) sin(kπθ/α) and r² times that.
 fn supported(angle: f64, most: f64) -> f64 {
     let powers = (-32..=32).flat_map(|k| [f64::from(k) * PI / angle - 1.0, f64::from(k) * PI / angle + 1.0]);
     let singular = powers.filter(|z| *z > WHOLE && *z < most && (z - z.round()).abs() > WHOLE);

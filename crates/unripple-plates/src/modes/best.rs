@@ -1,25 +1,25 @@
 //! The best of successive approximations, and when to give up.
 
-/// The approximation of least error so far.
+/// Keeps the approximation with the least error so far.
 pub(super) struct Best<T> {
-    /// It and its error, if that is one to be accepted.
+    /// The approximation and its error, if the error is small enough to be accepted.
     found: Option<(T, f64)>,
-    /// Least error so far, relative.
+    /// Least relative error so far.
     error: f64,
-    /// Largest error to be accepted where the accuracy is out of reach, relative.
+    /// Largest relative error that is accepted if the accuracy cannot be reached.
     most: f64,
-    /// Approximations without progress one after the other.
+    /// Number of approximations in succession that made no progress.
     stalled: usize,
 }
 
 impl<T> Best<T> {
-    /// None so far; those of errors up to `most` are accepted.
+    /// No approximation yet; those with errors up to `most` will be accepted.
     pub(super) fn up_to(most: f64) -> Self {
         Self { found: None, error: f64::INFINITY, most, stalled: 0 }
     }
 
-    /// Takes another approximation. It counts as progress if its error is below the share `progress` of the least so far, or if none was
-    /// finite.
+    /// Adds another approximation. It counts as progress if its error is at most the share `progress` of
+    /// the least error so far, or if no error was finite so far.
     pub(super) fn take(&mut self, found: T, error: f64, progress: f64) {
         let worse = error > progress * self.error || (self.error.is_finite() && !error.is_finite());
         self.stalled = if worse { self.stalled + 1 } else { 0 };
@@ -29,17 +29,17 @@ impl<T> Best<T> {
         self.error = self.error.min(error);
     }
 
-    /// Whether `patience` approximations one after the other were no progress.
+    /// Whether the last `patience` approximations made no progress.
     pub(super) fn is_stalled(&self, patience: usize) -> bool {
         self.stalled >= patience
     }
 
-    /// Whether any error was finite.
+    /// Whether any approximation had a finite error.
     pub(super) fn is_any(&self) -> bool {
         self.error.is_finite()
     }
 
-    /// The best with its error if that is accepted; else the least error.
+    /// The best approximation with its error, if the error is accepted; else the least error.
     ///
     /// # Errors
     /// The least error.

@@ -5,11 +5,12 @@ use crate::{Accuracy, Medium, PhysicsError};
 use std::f64::consts::TAU;
 use unripple_core::{Decay, Surface, require};
 
-/// Largest wavenumber at the top frequency, in rad/m: waves of 6 nm, shorter than the grains and molecules of any sheet. With twice this
-/// value, numbers of modes still fit in a word.
+/// Largest wavenumber at the top frequency, in rad/m: waves of 6 nm, shorter than the grains and molecules
+/// of any sheet. With twice this value, numbers of modes still fit into a machine word.
 const LARGEST_WAVENUMBER: f64 = 1e9;
 
-/// The request for the modes of a sheet: up to what frequency, and how accurately.
+/// The request for the modes of a sheet: the top frequency and the accuracy, with the properties of the
+/// sheet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     /// The wave properties of the sheet, with its air.
@@ -22,12 +23,12 @@ pub(crate) struct Bounds {
     pub(crate) k_top: f64,
     /// Relative accuracy of the frequencies that is aimed at.
     pub(crate) accuracy: f64,
-    /// Largest relative error with which they are given.
+    /// Largest relative error of the frequencies that is accepted if `accuracy` cannot be reached.
     pub(crate) most: f64,
 }
 
 impl Bounds {
-    /// The bounds of a surface's modes up to `max_hz` (Hz), to an accuracy of their frequencies.
+    /// The request for a surface's modes up to `max_hz` (Hz), with a given accuracy of their frequencies.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for a value out of its range.
@@ -61,7 +62,7 @@ impl Bounds {
         Ok(Self { medium, poisson, max_hz, k_top, accuracy: aim, most })
     }
 
-    /// The sheet without its air.
+    /// The wave properties of the sheet without its air.
     pub(crate) fn vacuum(&self) -> Medium {
         Medium { air_sides: 0.0, ..self.medium }
     }
@@ -71,22 +72,22 @@ impl Bounds {
         self.vacuum().omega(self.k_top).powi(2)
     }
 
-    /// The angular frequency in air (rad/s) of a mode, given its ω² in vacuum: that of a plane wave of the same wavenumber with
-    /// air. Rigid-body modes stay at 0.
+    /// The angular frequency in air (rad/s) of a mode, given its ω² in vacuum: that of a plane wave in air
+    /// with the wavenumber that the mode has in vacuum. Rigid-body modes stay at 0.
     pub(crate) fn omega_in_air(&self, square: f64) -> f64 {
         let omega = square.sqrt();
         if self.medium.air_sides > 0.0 { self.medium.omega(self.vacuum().wavenumber(omega)) } else { omega }
     }
 
-    /// Angular frequency (rad/s) with the air's mass, and the factor of that mass on a mass-normalised shape:
-    /// √(ρ_s/ρ_eff) = ω/ω_vacuum.
+    /// Angular frequency (rad/s) with the added mass of air, given ω² in vacuum, and the factor by which
+    /// that mass changes a mass-normalised shape: √(ρ_s/ρ_eff) = ω/ω_vacuum.
     pub(crate) fn loaded(&self, square: f64) -> (f64, f64) {
         let omega = self.omega_in_air(square);
         (omega, if square > 0.0 { omega / square.sqrt() } else { 1.0 })
     }
 
-    /// Decay rate (1/s) of a mode of some frequency in air (rad/s) and share of bending: by the sheet's damping and, above
-    /// coincidence, by radiation.
+    /// Decay rate (1/s) of a mode with given frequency in air (rad/s) and share of bending: by the sheet's
+    /// damping and, above coincidence, by radiation.
     pub(crate) fn decay_rate(&self, decay: &Decay, omega: f64, bending_share: f64) -> f64 {
         let radiated = if self.medium.air_sides > 0.0 {
             self.medium.radiation(self.medium.wavenumber(omega))

@@ -2,12 +2,13 @@
 
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply};
 
-/// How a symmetric matrix is decomposed.
+/// The algorithm by which a symmetric matrix is decomposed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Method {
-    /// Divide and conquer: fast, but vectors may be off by 1e-5 where eigenvalues differ by orders of magnitude.
+    /// Divide and conquer: fast, but eigenvectors may have errors of 1e-5 where eigenvalues differ by
+    /// orders of magnitude.
     Fast,
-    /// QR iteration: to machine precision of the largest eigenvalue.
+    /// QR iteration: errors within machine precision of the largest eigenvalue.
     Exact,
 }
 
@@ -27,8 +28,8 @@ pub(crate) fn product(left: MatRef<f64>, right: MatRef<f64>, par: Par) -> Mat<f6
     out
 }
 
-/// Nearly orthonormal columns made orthonormal without a change of their span: X ← X (3 - XᵀX)/2, twice (Björck and
-/// Bowie, *SIAM J. Numer. Anal.* 8, 358, 1971).
+/// Makes nearly orthonormal columns orthonormal without changing their span: X ← X (3 - XᵀX)/2, twice
+/// (Björck and Bowie, *SIAM J. Numer. Anal.* 8, 358, 1971).
 pub(crate) fn orthonormalised(mut columns: Mat<f64>, par: Par) -> Mat<f64> {
     for _ in 0..2 {
         let gram = product(columns.transpose(), columns.as_ref(), par);

@@ -1,8 +1,8 @@
-//! The modes that a method of solution finds.
+//! The common result of all methods that compute modes.
 
 use unripple_core::Shapes;
 
-/// Computed modes of a sheet in order of ascending frequency, the common result of all methods of solution.
+/// Computed modes of a sheet in order of ascending frequency, in a form common to all methods of solution.
 pub(super) struct Found {
     /// Natural frequencies ω, in rad/s.
     pub(super) omegas: Vec<f64>,

@@ -7,24 +7,24 @@ use rayon::prelude::*;
 use std::ops::Range;
 use unripple_linalg::Mat;
 
-/// A block of eigenpairs found at one shift, ascending.
+/// Eigenpairs found at one shift, in ascending order.
 #[derive(Debug, Default)]
 pub(super) struct EigenBlock {
     /// Eigenvalues λ, ascending.
     pub(super) values: Vec<f64>,
-    /// Norm in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ), of each.
+    /// Residual of each eigenpair: norm in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ).
     pub(super) residuals: Vec<f64>,
-    /// Place of each vector: index of its panel, and its index there.
+    /// Where each vector is stored: index of its panel, and its index in the panel.
     places: Vec<(usize, usize)>,
-    /// The vectors, M-orthonormal, padded with zeros.
+    /// Panels of the vectors, M-orthonormal, padded with zeros.
     pub(super) panels: Vec<Panel>,
-    /// Number of values below the shift.
+    /// Number of eigenvalues below the shift.
     pub(super) left: usize,
 }
 
 impl EigenBlock {
-    /// A block of eigenpairs, ascending, with their vectors in order in panels; `left` is the number of values
-    /// below the shift.
+    /// Eigenpairs in ascending order, with their vectors in that order in panels; `left` is the number of
+    /// eigenvalues below the shift.
     pub(super) fn new(values: Vec<f64>, residuals: Vec<f64>, panels: Vec<Panel>, left: usize) -> Self {
         let places = (0..values.len()).map(|i| (i / LANES, i % LANES)).collect();
         Self { values, residuals, places, panels, left }
@@ -35,7 +35,7 @@ impl EigenBlock {
         &self.values[self.left..]
     }
 
-    /// Drops the eigenpairs outside a range of indices.
+    /// Removes the eigenpairs outside a range of indices.
     pub(super) fn keep(&mut self, range: Range<usize>) {
         let mut used = vec![[0.0; LANES]; self.panels.len()];
         self.places[range.clone()].iter().for_each(|(panel, lane)| used[*panel][*lane] = 1.0);
@@ -57,7 +57,7 @@ impl EigenBlock {
         self.residuals = self.residuals[range].to_vec();
     }
 
-    /// Replaces the values by Rayleigh quotients.
+    /// Replaces the eigenvalues by the Rayleigh quotients of their vectors.
     pub(super) fn refine(&mut self, pencil: &Pencil) {
         let quotients: Vec<Row> = self.panels.par_iter().map(|panel| quotients(pencil, panel)).collect();
         for (value, (panel, lane)) in self.values.iter_mut().zip(&self.places) {
@@ -65,7 +65,7 @@ impl EigenBlock {
         }
     }
 
-    /// Appends other eigenpairs, without regard to the order of values.
+    /// Appends other eigenpairs, without regard to the order of eigenvalues.
     pub(super) fn append(&mut self, other: Self) {
         let count = self.panels.len();
         self.values.extend(other.values);
@@ -75,8 +75,8 @@ impl EigenBlock {
     }
 }
 
-/// All values λ below `top`, ascending, and their vectors, unknowns x pairs, in the given order and scale of
-/// unknowns.
+/// All eigenvalues λ below `top`, ascending, and their vectors, unknowns x pairs, in the original order and
+/// scale of the unknowns.
 pub(super) fn gather(pencil: &Pencil, pieces: &[EigenBlock], top: f64) -> (Vec<f64>, Mat<f64>) {
     let mut pairs: Vec<(f64, usize, (usize, usize))> = Vec::new();
     for (p, piece) in pieces.iter().enumerate() {

@@ -8,7 +8,7 @@ use super::plan::{STEP, factor_near};
 use crate::modes::eigen::{Method, product, symmetric};
 use unripple_linalg::{Cholesky, Mat, Par, Scale, norm, solve_lower_alone, solve_upper_alone};
 
-/// The shift τ below zero, as a share of the bound: K may be singular, K + τM is not. Rounding errors are relative to
+/// The shift τ, relative to the bound: K may be singular, K + τM is not. Rounding errors are relative to
 /// λ + τ: with twice this value, they double for the lowest λ; much smaller, K + τM is nearly singular.
 const SHIFT: f64 = 1e-3;
 
@@ -52,7 +52,7 @@ pub(super) fn all(pencil: &Pencil, top: f64) -> Result<EigenBlock, SpectrumError
     Ok(EigenBlock::new((0..found).map(value).collect(), residuals, panels, 0))
 }
 
-/// A sum of K and M with both triangles.
+/// A linear combination of K and M, as a full matrix with both triangles.
 fn full(pencil: &Pencil, sum: impl Fn(f64, f64) -> f64) -> Mat<f64> {
     let lower = &pencil.lower;
     let mut out = Mat::zeros(pencil.len(), pencil.len());

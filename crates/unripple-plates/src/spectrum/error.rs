@@ -1,6 +1,6 @@
 //! The errors of the eigenvalue solver.
 
-/// Why the eigenpairs of a pencil were not found.
+/// Why the eigenpairs of a matrix pencil were not found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum SpectrumError {
     /// The matrices are not a symmetric pencil of the required kind.
@@ -13,7 +13,7 @@ pub(crate) enum SpectrumError {
         /// What was found.
         found: String,
     },
-    /// K - σM has no accurate factors at the shift nor at shifts nearby.
+    /// The matrix K - σM could not be factored accurately, neither at the shift nor at shifts nearby.
     #[error("factors of K - σM at σ = {shift:e}: expected pivots clear of zero, found none nearby")]
     Factors {
         /// The shift σ.
@@ -22,16 +22,16 @@ pub(crate) enum SpectrumError {
     /// The number of eigenpairs found is not the number given by inertia.
     #[error("eigenpairs below {top:e}: expected {expected} by inertia, found {found}")]
     Missed {
-        /// The bound.
+        /// The bound below which all eigenpairs were requested.
         top: f64,
-        /// The number that exist.
+        /// The number of eigenpairs that exist.
         expected: usize,
-        /// The number found.
+        /// The number of eigenpairs found.
         found: usize,
     },
 }
 
-/// The error for a mass matrix that is not positive definite, with the value found for some xᵀMx.
+/// The error for a mass matrix that is not positive definite; `found` is the value of xᵀMx for some x.
 pub(super) fn indefinite(found: f64) -> SpectrumError {
     SpectrumError::Matrices {
         what: "square of a norm in M",

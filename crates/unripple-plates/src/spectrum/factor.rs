@@ -15,41 +15,42 @@ pub(super) struct Factor<'a> {
     pub(super) shift: f64,
     /// Number of negative pivots: by Sylvester's law of inertia, the number of eigenvalues below σ.
     pub(super) below: usize,
-    /// Largest ratio of |L||D||Lᵀ| to the matrix on the diagonal: the factor by which the factorisation amplifies rounding
-    /// errors.
+    /// Largest ratio, over the diagonal, of |L||D||Lᵀ| to the matrix: the factor by which the factorisation
+    /// amplifies rounding errors.
     pub(super) growth: f64,
     /// L and D, supernode by supernode.
     pub(super) nodes: Nodes<'a>,
 }
 
-/// L and D supernode by supernode, each in rows of tiles, so that solving reads memory once forwards and once backwards.
+/// The factors L and D supernode by supernode, each in tiles of rows, so that solving reads memory once
+/// forwards and once backwards.
 #[derive(Debug)]
 pub(super) struct Nodes<'a> {
     supernodes: &'a SymbolicSupernodalCholesky<usize>,
     tiles: Vec<[f64; TILE]>,
-    /// Start of each supernode's tiles.
+    /// Index where each supernode's tiles start.
     starts: Vec<usize>,
     inverse_pivots: Vec<f64>,
 }
 
-/// One supernode: columns of L that share their pattern of rows.
+/// One supernode: neighbouring columns of L with a common pattern of rows.
 pub(super) struct Node<'a> {
     /// Index of the supernode's first column.
     pub(super) start: usize,
     /// Number of columns in the supernode.
     pub(super) width: usize,
-    /// Numbers of its rows below the triangle.
+    /// Indices of the supernode's rows below its triangle.
     pub(super) pattern: &'a [usize],
-    /// The unit triangle: the tile of rows 4t to 4t + 3 has 4t + 4 columns.
+    /// The supernode's unit triangle: the tile of rows 4t to 4t + 3 has 4t + 4 columns.
     pub(super) top: &'a [[f64; TILE]],
-    /// The rows below; each tile has all columns.
+    /// The rows below the triangle; each tile has all columns.
     pub(super) below: &'a [[f64; TILE]],
     /// Inverses 1/D of the pivots, one per column.
     pub(super) inverse_pivots: &'a [f64],
 }
 
 impl<'a> Factor<'a> {
-    /// Factors at one shift σ (in λ's unit, 1/s²); `None` if a pivot is zero or not finite.
+    /// Factors K - σM at one shift σ (in λ's unit, 1/s²); `None` if a pivot is zero or not finite.
     ///
     /// # Errors
     /// [`SpectrumError::Matrices`] if memory does not hold them.
@@ -71,8 +72,8 @@ impl<'a> Factor<'a> {
     }
 }
 
-/// Number of negative pivots, and the largest ratio of |L||D||Lᵀ| to `diagonal` on the diagonal; `None` if a pivot is zero or not
-/// finite.
+/// Number of negative pivots, and the largest ratio on the diagonal of |L||D||Lᵀ| to `diagonal`; `None` if
+/// a pivot is zero or not finite.
 fn pivots(factor: SupernodalLdltRef<usize, f64>, diagonal: &[f64]) -> Option<(usize, f64)> {
     let mut below = 0;
     let mut sizes = vec![0.0; diagonal.len()];
@@ -98,7 +99,7 @@ fn pivots(factor: SupernodalLdltRef<usize, f64>, diagonal: &[f64]) -> Option<(us
 }
 
 impl<'a> Nodes<'a> {
-    /// Copies a factor, column by column, into tiles of rows.
+    /// Copies a factor, which is stored column by column, into tiles of rows.
     fn new(supernodes: &'a SymbolicSupernodalCholesky<usize>, factor: SupernodalLdltRef<usize, f64>) -> Self {
         let mut tiles = Vec::with_capacity(factor.values().len().div_ceil(TILE) * 9 / 8);
         let (mut starts, mut inverse_pivots) = (Vec::new(), Vec::new());
@@ -137,7 +138,7 @@ impl<'a> Nodes<'a> {
         self.starts.len() - 1
     }
 
-    /// One supernode, by its index.
+    /// The supernode with index `s`.
     #[inline(always)]
     pub(super) fn at(&self, s: usize) -> Node<'_> {
         let start = self.supernodes.supernode_begin()[s];

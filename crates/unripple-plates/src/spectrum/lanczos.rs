@@ -10,56 +10,59 @@ use crate::modes::eigen::{Method, symmetric};
 use unripple_core::Random;
 use unripple_linalg::Mat;
 
-/// Ratio of the smallest to the largest pivot of a panel's Gram matrix, with columns scaled to one, below
-/// which another pass of orthogonalisation is needed: above it at most two digits are lost. Nearer to 1, panels take more
-/// passes.
+/// Ratio of the smallest to the largest pivot of a panel's Gram matrix (columns scaled to one) below which
+/// another pass of orthogonalisation is needed: above it at most two digits are lost. Nearer to 1, panels
+/// take more passes.
 const WELL: f64 = 1e-2;
-/// The ratio below which that pass is against all panels instead of within the panel alone.
+/// Ratio of pivots above which the additional pass is within the panel alone, and below which it is against
+/// all panels.
 const ILL: f64 = 1e-4;
 /// Largest number of passes of Gram-Schmidt orthogonalisation: more than two are needed where vectors are nearly
 /// dependent or replaced.
 const PASSES: usize = 6;
-/// Relative size of the parts subtracted from a vector up to which its product with M is not computed again: some hundred
-/// rounding errors. Smaller, nearly every pass would multiply by M.
+/// Relative size of the parts subtracted from a vector up to which the vector's product with M is not
+/// computed again: some hundred rounding errors. Smaller, nearly every pass would multiply by M.
 const ROUNDING: f64 = 1e-13;
-/// Relative size of the remainder of a vector at which it counts as dependent on the others: a random vector replaces
-/// it.
+/// Relative size of the remainder of a vector below which the vector counts as dependent on the others and
+/// is replaced by a random vector.
 const NOTHING: f64 = 1e-14;
 
-/// Block Lanczos iteration on (K - σM)⁻¹M (Grimes, Lewis and Simon, *SIAM J. Matrix Anal. Appl.* 15, 228, 1994), a panel
-/// each step, all vectors kept M-orthonormal.
+/// Block Lanczos iteration on (K - σM)⁻¹M (Grimes, Lewis and Simon, *SIAM J. Matrix Anal. Appl.* 15, 228,
+/// 1994): each step adds a panel of vectors, and all vectors are kept M-orthonormal.
 ///
 /// From each new panel the terms of the three-term recurrence are subtracted first, and then its remaining parts along all other
 /// panels; one such pass suffices since these are small.
 pub(super) struct Lanczos<'a> {
     pencil: &'a Pencil,
     factor: &'a Factor<'a>,
-    /// Number of panels of known eigenvectors, to which the basis is orthogonal.
+    /// Number of panels of known eigenvectors; the basis is orthogonal to these vectors.
     known: usize,
-    /// The known panels and then the basis; the operator has not been applied to the last.
+    /// The panels of known eigenvectors, then those of the basis; the operator has not been applied to the
+    /// last panel.
     panels: Vec<Panel>,
-    /// M times the last panel.
+    /// The product of M and the last panel.
     weighed: Panel,
     /// The operator projected on the basis: the blocks on its diagonal, and those below it.
     diagonal: Vec<Square>,
     below: Vec<Square>,
     random: Random,
-    /// Scratch.
+    /// Scratch memory for solves.
     rows: Vec<Row>,
 }
 
 /// The Ritz approximations of eigenpairs in the basis.
 pub(super) struct Ritz {
-    /// 1/(λ-σ), ascending: the nearest λ below σ comes first, the nearest above last.
+    /// The numbers 1/(λ-σ), ascending: the first belongs to the nearest λ below σ, the last to the nearest
+    /// above.
     pub(super) inverses: Vec<f64>,
-    /// Norms in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ).
+    /// Residuals: norms in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ).
     pub(super) residuals: Vec<f64>,
     /// The Ritz vectors, as coefficients of the basis.
     pub(super) vectors: Mat<f64>,
 }
 
 impl<'a> Lanczos<'a> {
-    /// A basis of one panel, M-orthogonal to known eigenvectors; `seed` gives its random numbers.
+    /// A basis of one panel, M-orthogonal to known eigenvectors; its random numbers start from `seed`.
     ///
     /// # Errors
     /// [`SpectrumError::Matrices`] if M is not positive definite.
@@ -87,7 +90,7 @@ impl<'a> Lanczos<'a> {
         Ok(lanczos)
     }
 
-    /// Number of vectors that the operator has been applied to.
+    /// Number of vectors to which the operator has been applied.
     pub(super) fn len(&self) -> usize {
         self.diagonal.len() * LANES
     }
@@ -97,7 +100,7 @@ impl<'a> Lanczos<'a> {
         self.panels.len() * LANES
     }
 
-    /// Applies the operator to the last panel.
+    /// Applies the operator to the last panel, and appends the orthonormalised result as a new panel.
     ///
     /// # Errors
     /// [`SpectrumError::Matrices`] if M is not positive definite.
@@ -119,8 +122,9 @@ impl<'a> Lanczos<'a> {
         Ok(())
     }
 
-    /// Makes a panel M-orthonormal, also to all others, by block Gram-Schmidt with reorthogonalisation, and
-    /// appends it. What comes back are the coefficients of the panel given in the one appended.
+    /// Makes a panel M-orthonormal, also to all other panels, by block Gram-Schmidt with
+    /// reorthogonalisation, and appends it. Returns the coefficients of the given panel in the appended
+    /// one.
     fn append(&mut self, mut new: Panel) -> Result<Square, SpectrumError> {
         let (arch, pencil) = (self.pencil.arch, self.pencil);
         let mut coefficients = identity();
@@ -176,7 +180,8 @@ impl<'a> Lanczos<'a> {
         self.pencil.weigh(new, &mut self.weighed);
     }
 
-    /// The eigenpairs of the operator within the basis; `None` if their iteration does not converge.
+    /// The eigenpairs of the operator within the basis; `None` if the eigenvalue iteration does not
+    /// converge.
     pub(super) fn ritz(&self) -> Option<Ritz> {
         let count = self.len();
         let mut between = Mat::zeros(count, count);
@@ -200,7 +205,7 @@ impl<'a> Lanczos<'a> {
         Some(Ritz { residuals: residuals.collect(), inverses, vectors })
     }
 
-    /// The eigenvectors of some Ritz pairs, given by their indices, in panels; the last panel is padded with
+    /// The eigenvectors of the Ritz pairs with the given indices, in panels; the last panel is padded with
     /// zeros.
     pub(super) fn vectors(&self, ritz: &Ritz, numbers: &[usize]) -> Vec<Panel> {
         let panels = &self.panels[self.known..][..self.diagonal.len()];
@@ -222,7 +227,7 @@ impl<'a> Lanczos<'a> {
     }
 }
 
-/// A row of numbers between -1 and 1.
+/// A row of random numbers between -1 and 1.
 fn any(random: &mut Random) -> Row {
     std::array::from_fn(|_| random.between(-1.0, 1.0))
 }
@@ -232,7 +237,7 @@ fn small(factor: &Square, squares: &Row) -> bool {
     factor.iter().all(|row| row.iter().zip(squares).all(|(f, s)| f * f <= ROUNDING * ROUNDING * s))
 }
 
-/// Squares of norms, from the Gram matrix.
+/// Squared norms of a panel's vectors, from their Gram matrix.
 fn squares(gram: &[Square]) -> Row {
     std::array::from_fn(|i| gram[0][i][i])
 }

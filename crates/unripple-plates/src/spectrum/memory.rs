@@ -5,8 +5,8 @@ use super::plan::{KEPT, SHARE};
 /// Approximate number of entries in each row of the matrices, for quintic elements on a surface. With twice this value, small problems
 /// would be estimated twice as large.
 const ROW: f64 = 45.0;
-/// Number of vectors of a Lanczos basis for a full share of 160 eigenpairs. With twice this value,
-/// problems that fit would be refused.
+/// Number of vectors of a Lanczos basis for 160 eigenpairs, the most that are computed at one shift. With
+/// twice this value, problems that fit would be refused.
 const BASIS: f64 = 300.0;
 
 /// Approximate number of bytes that [`below`](super::below) needs for `wanted` eigenpairs of `n` unknowns.

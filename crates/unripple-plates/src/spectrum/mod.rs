@@ -30,8 +30,9 @@ use unripple_core::Observed;
 use unripple_linalg::Mat;
 use unripple_linalg::sparse::SparseColMatRef;
 
-/// Relative step by which a shift is moved if it meets an eigenvalue of the pencil or of a leading part of it: some ten
-/// thousand rounding errors. With twice this value, a count may include eigenvalues up to 1.4e-10 above the bound.
+/// Relative step by which a shift is moved if it coincides with an eigenvalue of the pencil or of a leading
+/// part of it: some ten thousand rounding errors. With twice this value, a count may include eigenvalues up
+/// to 1.4e-10 above the bound.
 #[cfg(test)]
 const NUDGE: f64 = 1e-11;
 /// Number of unknowns up to which dense matrices are used. With twice this value, this includes meshes of up to 640, in up to eight
@@ -48,14 +49,16 @@ pub(crate) struct Pairs {
     pub(crate) values: Vec<f64>,
     /// An eigenvector in each column, unknowns x pairs, XᵀMX = 1.
     pub(crate) vectors: Mat<f64>,
-    /// Largest residual: the norm in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ), with σ the shift at which the pair was found. The error
-    /// of an eigenvalue, relative to its distance from σ, is the square of the residual over the relative gap of 1/(λ-σ); that of its
-    /// vector is the residual over that gap.
+    /// Largest residual: the norm in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ), with σ the shift at which
+    /// the pair was found. The error of an eigenvalue, relative to its distance from σ, is the square of
+    /// the residual over the relative gap of 1/(λ-σ); the error of its vector is the residual over that
+    /// gap.
     pub(crate) residual: f64,
 }
 
-/// All eigenpairs with λ < `top`, for K positive semidefinite and M positive definite, both given with both triangles. `observed` is told
-/// of factorisations while shifts are placed, then of the share of the eigenpairs that is computed.
+/// All eigenpairs with λ < `top`, for K positive semidefinite and M positive definite, both given with both
+/// triangles. `observed` is notified of factorisations while shifts are placed, then of the share of the
+/// eigenpairs that is computed.
 ///
 /// # Errors
 /// [`SpectrumError::Matrices`] unless both matrices are square, of equal size and finite, and M is positive definite;

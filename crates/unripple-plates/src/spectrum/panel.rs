@@ -1,4 +1,5 @@
-//! Panels of [`LANES`] vectors kept row by row, so that one entry of a matrix acts on all of them at once.
+//! Panels of [`LANES`] vectors stored row by row, so that one entry of a matrix acts on all of them at
+//! once.
 
 use pulp::{Arch, NullaryFnOnce};
 
@@ -12,10 +13,10 @@ pub(super) type Row = [f64; LANES];
 /// A block of [`LANES`] vectors, row by row.
 pub(super) type Panel = Vec<Row>;
 
-/// A small matrix between two panels, row by row.
+/// A small matrix that relates two panels, row by row.
 pub(super) type Square = [Row; LANES];
 
-/// A row of zeros, where sums start.
+/// A row of zeros, the starting value of sums.
 pub(super) const NONE: Row = [0.0; LANES];
 
 /// Number of rows of a panel that stay in the first-level cache: 8 KiB of each of two panels. With twice this value, results
@@ -34,13 +35,13 @@ pub(super) fn add(sum: &mut Row, factor: f64, row: &Row) {
     }
 }
 
-/// Gram matrices XᵀZ of each X of some panels, each lanes x lanes.
+/// Gram matrices XᵀZ of each panel X with the panel Z, each lanes x lanes.
 pub(super) fn project<'a>(arch: Arch, panels: impl IntoIterator<Item = &'a Panel>, z: &[Row]) -> Vec<Square> {
     let panels: Vec<&Panel> = panels.into_iter().collect();
     arch.dispatch(Project { panels: &panels, z })
 }
 
-/// W ← W - Σ X C over some panels X.
+/// Subtracts combinations of panels: W ← W - Σ X C over the given panels X and factors C.
 pub(super) fn subtract(arch: Arch, panels: &[Panel], factors: &[Square], w: &mut [Row]) {
     arch.dispatch(Subtract { panels, factors, w });
 }
@@ -70,7 +71,7 @@ impl NullaryFnOnce for Project<'_> {
     }
 }
 
-/// C ← C + XᵀZ.
+/// Adds the product of two panels to a small matrix: C ← C + XᵀZ.
 #[inline(always)]
 fn add_product(x: &[Row], z: &[Row], out: &mut Square) {
     for (tile, out) in out.chunks_exact_mut(TILE).enumerate() {
@@ -105,7 +106,7 @@ impl NullaryFnOnce for Subtract<'_> {
     }
 }
 
-/// W ← W - X C.
+/// Subtracts a combination of one panel: W ← W - X C.
 #[inline(always)]
 fn subtract_product(x: &[Row], factor: &Square, w: &mut [Row]) {
     let (rows, last_rows) = x.as_chunks::<TILE>();

@@ -14,13 +14,13 @@ use unripple_linalg::sparse::{
 /// K - σM sparse (approximate minimum degree).
 #[derive(Debug)]
 pub(super) struct Pencil {
-    /// Index of the given unknown at each place of the new order.
+    /// Original index of the unknown in each position of the new order.
     pub(super) order: Vec<usize>,
     /// The scale factors S, in the new order.
     pub(super) scale: Vec<f64>,
-    /// The lower triangles of K and M on one pattern.
+    /// The lower triangles of K and M, with a common sparsity pattern.
     pub(super) lower: Lower,
-    /// All of M, row by row.
+    /// All entries of M, row by row.
     rows: Rows,
     symbolic: SymbolicCholesky<usize>,
     /// The SIMD instruction set of the processor.
@@ -30,7 +30,7 @@ pub(super) struct Pencil {
 /// Lower triangles of two symmetric matrices, column by column.
 #[derive(Debug)]
 pub(super) struct Lower {
-    /// The pattern of both.
+    /// The common sparsity pattern of both matrices.
     pub(super) pattern: SymbolicSparseColMat<usize>,
     /// Entries of K, in the pattern's order.
     pub(super) stiffness: Vec<f64>,
@@ -46,7 +46,8 @@ struct Rows {
 }
 
 impl Pencil {
-    /// The pencil of two matrices given with both triangles; only entries on or below the diagonal in the new order are read.
+    /// The pencil of two matrices that are given with both triangles; only entries on or below the diagonal
+    /// in the new order are read.
     ///
     /// # Errors
     /// [`SpectrumError::Matrices`] unless both are square, of equal size and finite, and M's diagonal is positive.
@@ -88,7 +89,7 @@ impl Pencil {
         self.supernodes().map_or(0, |s| s.len_val() * size_of::<f64>())
     }
 
-    /// The error for factors that memory does not hold.
+    /// The error for factors that do not fit into memory.
     pub(super) fn too_large(&self) -> SpectrumError {
         too_large(self.len())
     }
@@ -122,7 +123,7 @@ impl NullaryFnOnce for Weigh<'_> {
 }
 
 impl Lower {
-    /// The entries on and below the diagonal in the new order.
+    /// The entries of both matrices on and below the diagonal in the new order.
     fn new(
         stiffness: SparseColMatRef<usize, f64>,
         mass: SparseColMatRef<usize, f64>,
@@ -156,7 +157,7 @@ impl Lower {
         Ok(Self { pattern, stiffness: k, mass: m })
     }
 
-    /// All of M, row by row, from its lower triangle.
+    /// All entries of M, row by row, from its lower triangle.
     fn mass_rows(&self) -> Rows {
         let n = self.pattern.ncols();
         let lower = || {

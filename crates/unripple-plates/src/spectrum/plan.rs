@@ -1,4 +1,4 @@
-//! Choice of the shifts that divide a spectrum into shares (spectrum slicing).
+//! Choice of the shifts that divide a spectrum into parts (spectrum slicing).
 
 use super::SpectrumError;
 use super::factor::Factor;
@@ -7,23 +7,27 @@ use rayon::prelude::*;
 use unripple_core::Observed;
 use unripple_linalg::Par;
 
-/// Approximate number of eigenpairs computed at each shift. With twice this value, there are half as many factorisations, and bases of
-/// about twice as many vectors, each of which is made orthogonal to all before.
+/// Approximate number of eigenpairs computed at each shift. With twice this value, there are half as many
+/// factorisations, and bases of about twice as many vectors, each of which is made orthogonal to all
+/// vectors before it.
 pub(super) const SHARE: usize = 160;
-/// Growth of the factors, per eigenvalue below the shift, above which another shift is tried.
+/// Growth of the factors ([`Factor::growth`]), per eigenvalue below the shift, above which another shift is
+/// tried.
 const GROWTH: f64 = 16.0;
-/// Number of shifts tried, each a little above the one before; the one of least growth is taken if none passes.
+/// Number of shifts tried, each a little above the previous one; if none is acceptable, the one of least
+/// growth is used.
 const TRIES: usize = 6;
-/// Relative step from one shift tried to the next. With twice this value, shifts may be 1 % from their intended places.
+/// Relative distance between successive shifts that are tried. With twice this value, shifts may be 1 %
+/// from their intended positions.
 pub(super) const STEP: f64 = 1e-3;
-/// Rounds of placing shifts: each replaces those too far from their intended places. More only make
-/// the shares more equal.
+/// Number of rounds of placing shifts: each replaces those too far from their intended positions. More
+/// rounds only make the parts of the spectrum more equal.
 const ROUNDS: usize = 4;
-/// Distance of a shift from its intended place that is accepted, as a share of the eigenpairs of each. With twice this value, fewer shifts
-/// are placed again, and shares are less equal.
+/// Accepted distance of a shift from its intended position, relative to the number of eigenpairs per shift.
+/// With twice this value, fewer shifts are placed again, and the parts of the spectrum are less equal.
 const SLACK: f64 = 0.1;
-/// Memory in bytes for factors that are kept for later use, a quarter of a GiB; if they need more, they are computed
-/// again. With twice this value, fewer are computed twice, for more memory.
+/// Memory in bytes for factors that are stored for later use, a quarter of a GiB; if they need more, they
+/// are computed again. With twice this value, fewer are computed twice, for more memory.
 pub(super) const KEPT: usize = 1 << 28;
 
 /// A shift and the number of eigenvalues below it.
@@ -31,24 +35,26 @@ pub(super) const KEPT: usize = 1 << 28;
 pub(super) struct Shift<'a> {
     /// The shift σ.
     pub(super) at: f64,
-    /// Number of eigenvalues below.
+    /// Number of eigenvalues below the shift.
     pub(super) below: usize,
-    /// Factors of K - σM at the shift, if memory allows to keep them.
+    /// Factors of K - σM at the shift, if they fit into the memory for stored factors.
     pub(super) factor: Option<Factor<'a>>,
 }
 
-/// Shifts, ascending, with about equal numbers of eigenvalues from one to the next, and half as many at the ends.
+/// Shifts, ascending, with about equal numbers of eigenvalues between neighbouring shifts, and half as many
+/// at the ends.
 #[derive(Debug)]
 pub(super) struct Plan<'a> {
     /// The shifts, ascending.
     pub(super) shifts: Vec<Shift<'a>>,
-    /// The bound, which is not an eigenvalue.
+    /// The bound below which eigenpairs are requested, moved slightly if it is an eigenvalue.
     pub(super) top: f64,
     /// Number of eigenvalues below the bound.
     pub(super) below: usize,
 }
 
-/// Factors at a shift σ or, if pivots are close to zero there, at one up to five times `step` above.
+/// Factors of K - σM at a shift σ or, if pivots are close to zero there, at a shift that is one to five
+/// times `step` higher.
 ///
 /// The growth of factors is about proportional to the number of eigenvalues below, except for shifts where it is far larger by
 /// chance. These are avoided, since growth loses accuracy.
@@ -71,7 +77,7 @@ pub(super) fn factor_near(pencil: &Pencil, shift: f64, step: f64) -> Result<Fact
 }
 
 impl<'a> Plan<'a> {
-    /// Shifts for all eigenvalues below a bound.
+    /// Chooses shifts for all eigenvalues below a bound.
     ///
     /// # Errors
     /// [`SpectrumError::Factors`] if K - σM cannot be factorised at a bound or shift.

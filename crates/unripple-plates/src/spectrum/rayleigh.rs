@@ -1,4 +1,4 @@
-//! Rayleigh quotients in compensated sums.
+//! Rayleigh quotients, with compensated summation.
 
 use super::panel::{LANES, NONE, Panel, Row};
 use super::pencil::{Lower, Pencil};
@@ -48,7 +48,7 @@ impl NullaryFnOnce for Quotients<'_> {
     }
 }
 
-/// A sum in each lane and its rounding error.
+/// A sum in each lane and its accumulated rounding error (compensated summation).
 #[derive(Clone, Copy)]
 struct Sum {
     high: Row,
@@ -62,7 +62,7 @@ impl Default for Sum {
 }
 
 impl Sum {
-    /// Adds products.
+    /// Adds the products of two rows to the sums.
     #[inline(always)]
     fn add(&mut self, a: &Row, b: &Row) {
         for lane in 0..LANES {

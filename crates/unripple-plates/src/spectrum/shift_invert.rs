@@ -9,11 +9,12 @@ use super::pencil::Pencil;
 use super::solve::solve;
 use unripple_core::Steps;
 
-/// Relative residual, as estimated by the iteration, at which an eigenpair counts as found: the error of its eigenvalue is
-/// about its square, below rounding errors. Ten times more saves one or two steps.
+/// Relative residual, as estimated by the iteration, below which an eigenpair counts as found: the error of
+/// its eigenvalue is about the square of the residual, below rounding errors. Ten times more saves one or
+/// two steps.
 const FOUND: f64 = 1e-9;
-/// Largest relative residual when it is computed from the vector: ten times the estimate, since rounding errors
-/// add to it.
+/// Largest accepted relative residual when it is computed from the vector itself: ten times the estimate,
+/// since rounding errors add to it.
 const CHECKED: f64 = 1e-8;
 /// Approximate number of steps until the first eigenpairs near a shift are found: with fewer, the small eigenvalue problem is
 /// solved too early; with more, steps are wasted.
@@ -24,24 +25,27 @@ const PACE: f64 = 1.5;
 /// Approximate number of decades by which a small residual falls with each step. With twice this value, the next
 /// check comes too early; halved, too late.
 const DECADES: f64 = 0.7;
-/// Largest number of steps, as a multiple of the number expected: eigenpairs not found by then belong to an eigenvalue of higher
-/// multiplicity than the block, and are found in another way. With twice this value, that is noticed later.
+/// Largest number of steps, as a multiple of the expected number: eigenpairs not found by then belong to an
+/// eigenvalue of higher multiplicity than the block, and are found by another search. With twice this
+/// value, that is noticed later.
 const PATIENCE: usize = 3;
 
-/// Share of the work at a shift that is told of while its basis grows. Nearer to 1, less is left for vectors and residuals.
+/// Share of the work at a shift that is reported as progress while its basis grows. Nearer to 1, less is
+/// left for vectors and residuals.
 const ITERATING: f64 = 0.9;
 
-/// Number of eigenpairs wanted next to a shift, on either side.
+/// Numbers of eigenpairs requested on either side of a shift.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Wanted {
-    /// Number below the shift.
+    /// Number of eigenpairs below the shift.
     pub(super) left: usize,
-    /// Number above the shift.
+    /// Number of eigenpairs above the shift.
     pub(super) right: usize,
 }
 
-/// The eigenpairs nearest to a shift, as many as wanted on either side, or fewer if not all are found;
-/// `known` are eigenvectors to leave out, `seed` that of the random first vectors; all of it is one of the `steps`.
+/// The requested numbers of eigenpairs nearest to a shift on either side, or fewer if not all are found.
+/// `known` are eigenvectors to leave out, `seed` starts the random numbers of the first vectors, and the
+/// whole search counts as one of the `steps` of progress.
 ///
 /// # Errors
 /// [`SpectrumError::Matrices`] if M is not positive definite.
@@ -57,7 +61,7 @@ pub(super) fn nearest(
     let expected = START + (all as f64 * PACE / LANES as f64).ceil() as usize;
     let mut until = expected;
     let mut found = None;
-    // What remains is told at the end: of vectors, residuals, and panels that were not expected.
+    // The remaining share is reported at the end: vectors, residuals, and panels beyond the expected number.
     let (mut taken, share) = (0.0, ITERATING / expected as f64);
     while found.is_none() {
         let full = lanczos.taken() + LANES > pencil.len() || lanczos.len() >= PATIENCE * expected * LANES;
@@ -97,7 +101,7 @@ pub(super) fn nearest(
     Ok(piece)
 }
 
-/// Norms in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ), from the vectors themselves.
+/// Residuals computed from the vectors themselves: norms in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ).
 fn residuals(pencil: &Pencil, factor: &Factor, inverses: &[f64], panels: &[Panel]) -> Vec<f64> {
     let mut rows = Vec::new();
     let (mut weighed, mut rest) = (vec![NONE; pencil.len()], vec![NONE; pencil.len()]);
@@ -118,7 +122,7 @@ fn residuals(pencil: &Pencil, factor: &Factor, inverses: &[f64], panels: &[Panel
 }
 
 impl Ritz {
-    /// Approximate number of steps until as many as wanted are found.
+    /// Approximate number of further steps until the requested eigenpairs are found.
     fn steps_to(&self, wanted: Wanted) -> usize {
         let count = self.residuals.len();
         let sides = self.residuals[..wanted.left.min(count)]
@@ -128,7 +132,8 @@ impl Ritz {
         ((worst / FOUND).log10() / DECADES).ceil().max(1.0) as usize
     }
 
-    /// The number of eigenpairs found on either side, counted from the shift outwards up to the first that has not converged.
+    /// The numbers of converged eigenpairs on either side, counted from the shift outwards up to the first
+    /// that has not converged.
     fn found(&self) -> Wanted {
         let good =
             |(inverse, residual): &(&f64, &f64), side: f64| **inverse * side > 0.0 && **residual < FOUND;

@@ -10,26 +10,27 @@ use super::small::transposed;
 use rayon::prelude::*;
 use unripple_core::{Observed, Steps};
 
-/// Number of eigenpairs requested from a shift beyond its share, so that clusters need not be divided.
-/// With twice this value, each shift computes two more that are not needed.
+/// Number of eigenpairs requested from a shift in addition to its part of the spectrum, so that clusters
+/// need not be divided. With twice this value, each shift computes two more that are not needed.
 const MARGIN: usize = 2;
-/// Least distance, as a share of the interval, between the eigenvalues taken from one shift and those from the next: nearer
-/// ones may be the same, and the interval gets a shift of its own. With twice this value, that happens more often.
+/// Least distance, relative to the interval, between the eigenvalues taken from one shift and those from
+/// the next: nearer ones may be the same eigenvalue, and the interval then gets another shift. With twice
+/// this value, that happens more often.
 const CLEAR: f64 = 1e-6;
-/// Rounds of search for eigenvectors of the same eigenvalue, each of as many as a panel holds: up to 320. More
-/// are an error.
+/// Largest number of searches for eigenvectors of one eigenvalue; each search finds up to a panel of them,
+/// 320 in all. More are an error.
 const ROUNDS: usize = 40;
-/// Number of panels on either side of a boundary that are made orthogonal to each other: those of the nearest
-/// eigenvalues, whose vectors are mixed by rounding. With twice this value, vectors that are orthogonal already are compared as
-/// well.
+/// Number of panels on either side of a boundary between parts of the spectrum that are made orthogonal to
+/// each other: those of the nearest eigenvalues, whose vectors are mixed by rounding errors. With twice
+/// this value, vectors that are orthogonal already are compared as well.
 const NEIGHBOURS: usize = 3;
 
-/// An interval between two shifts, or at the ends.
+/// An interval of the spectrum between two shifts, or between a shift and an end.
 #[derive(Clone, Copy, Debug)]
 struct Gap {
     from: f64,
     to: f64,
-    /// Numbers of eigenvalues below its ends.
+    /// Numbers of eigenvalues below the two ends of the interval.
     below: [usize; 2],
 }
 
@@ -44,7 +45,7 @@ impl Gap {
     }
 }
 
-/// All eigenpairs below the bound of a plan, piece by piece, ascending.
+/// All eigenpairs below the bound of a plan, as a list of blocks in ascending order.
 ///
 /// # Errors
 /// [`SpectrumError::Missed`] if their number is not that given by inertia.
@@ -91,7 +92,7 @@ pub(super) fn all(
     Ok(out)
 }
 
-/// The intervals between the shifts, from below all eigenvalues to the bound.
+/// The intervals between the shifts, the first unbounded below, the last ending at the bound.
 fn gaps(plan: &Plan) -> Vec<Gap> {
     let ends = plan.shifts.iter().map(|s| (s.at, s.below)).chain([(plan.top, plan.below)]);
     let mut start = (f64::NEG_INFINITY, 0);
@@ -103,7 +104,7 @@ fn gaps(plan: &Plan) -> Vec<Gap> {
     .collect()
 }
 
-/// The number of eigenpairs requested from the shift between gap `i` and the next.
+/// The numbers of eigenpairs requested from the shift between interval `i` and the next.
 fn wanted(pair: &[Gap], i: usize, count: usize) -> Wanted {
     let (left, right) = (pair[0].count(), pair[1].count());
     Wanted {
@@ -112,7 +113,7 @@ fn wanted(pair: &[Gap], i: usize, count: usize) -> Wanted {
     }
 }
 
-/// The eigenpairs nearest to one shift; factors that were not kept are computed again.
+/// The eigenpairs nearest to one shift; factors that were not stored are computed again.
 fn shift_invert(
     pencil: &Pencil,
     shift: Shift,
@@ -131,8 +132,9 @@ fn shift_invert(
     nearest(pencil, &factor, wanted, &[], (seed, Some(steps)))
 }
 
-/// The number of a gap's eigenpairs to take from the shift at its start; the others are taken from the shift at its end. `None` if
-/// both together do not have all eigenpairs of the gap, clearly separated.
+/// How many of an interval's eigenpairs to take from the shift at its start; the others are taken from the
+/// shift at its end. `None` if both shifts together do not have all eigenpairs of the interval, clearly
+/// separated.
 fn part(gap: &Gap, i: usize, pieces: &[EigenBlock]) -> Option<usize> {
     let count = gap.count();
     let right: &[f64] = if i == 0 { &[] } else { pieces[i - 1].right() };
@@ -153,8 +155,9 @@ fn part(gap: &Gap, i: usize, pieces: &[EigenBlock]) -> Option<usize> {
     (clearance > CLEAR).then_some(p)
 }
 
-/// All eigenpairs within a gap, from a shift of their own. The search is repeated in the complement of those already found until
-/// none is missing, so that a multiple eigenvalue is found with all its vectors.
+/// All eigenpairs within an interval, found from an additional shift inside it. The search is repeated
+/// orthogonally to those already found until none is missing, so that a multiple eigenvalue is found with
+/// all its vectors.
 fn resolve(pencil: &Pencil, gap: &Gap) -> Result<EigenBlock, SpectrumError> {
     let low = gap.from.max(0.0);
     let factor = factor_near(pencil, low + 0.47 * (gap.to - low), 0.01 * (gap.to - low))?;
@@ -179,7 +182,7 @@ fn resolve(pencil: &Pencil, gap: &Gap) -> Result<EigenBlock, SpectrumError> {
     Ok(whole)
 }
 
-/// Makes the vectors of two pieces, each M-orthonormal, orthogonal to each other by equal changes of both.
+/// Makes the vectors of two blocks, each M-orthonormal, orthogonal to each other by changing both equally.
 fn separate(pencil: &Pencil, before: &mut [Panel], after: &mut [Panel]) {
     let old = after.to_vec();
     let mut factors = vec![Vec::new(); before.len()];

@@ -3,8 +3,8 @@
 use super::error::{SpectrumError, indefinite};
 use super::panel::{LANES, NONE, Square};
 
-/// Least pivot of a Gram matrix with ones on its diagonal that is above rounding errors: smaller ones are raised to
-/// it, so that R has an inverse.
+/// Least pivot, above rounding errors, of a Gram matrix with ones on its diagonal: smaller pivots are
+/// raised to this value, so that R has an inverse.
 const LEAST: f64 = 1e-14;
 
 /// The identity matrix, ones on the diagonal.
@@ -28,7 +28,8 @@ pub(super) struct Triangle {
     pub(super) upper: Square,
     /// Inverse R⁻¹ of the upper triangle.
     pub(super) inverse: Square,
-    /// Least pivot over the largest, with the diagonal scaled to one; pivots below [`LEAST`] are raised to it.
+    /// Ratio of the least to the largest pivot, with the diagonal scaled to one; pivots below [`LEAST`] are
+    /// raised to that value.
     pub(super) ratio: f64,
 }
 

@@ -4,7 +4,7 @@ use super::factor::{Factor, Node};
 use super::panel::{NONE, Row, TILE, add};
 use pulp::{Arch, NullaryFnOnce};
 
-/// Solves (K - σM) X = B for a panel, in place; `rows` is scratch.
+/// Solves (K - σM) X = B for a panel, in place; `rows` is scratch memory.
 pub(super) fn solve(arch: Arch, factor: &Factor, x: &mut [Row], rows: &mut Vec<Row>) {
     arch.dispatch(Solve { factor, x, rows });
 }
@@ -30,7 +30,7 @@ impl NullaryFnOnce for Solve<'_> {
     }
 }
 
-/// The part of x ← L⁻¹x for one supernode.
+/// The part of x ← L⁻¹x that one supernode contributes.
 #[inline(always)]
 fn forward(node: &Node, x: &mut [Row]) {
     let (top, below) = x[node.start..].split_at_mut(node.width);
@@ -61,7 +61,7 @@ fn forward(node: &Node, x: &mut [Row]) {
     }
 }
 
-/// Σ_j L[i, j] x[j] for the rows i of a tile.
+/// The sums Σ_j L[i, j] x[j] for the rows i of a tile.
 #[inline(always)]
 fn tile_times(tile: &[[f64; TILE]], x: &[Row]) -> [Row; TILE] {
     let mut sums = [NONE; TILE];
@@ -73,7 +73,7 @@ fn tile_times(tile: &[[f64; TILE]], x: &[Row]) -> [Row; TILE] {
     sums
 }
 
-/// x[j] ← x[j] - Σ_i L[i, j] rows[i].
+/// Subtracts the product with a transposed tile: x[j] ← x[j] - Σ_i L[i, j] rows[i].
 #[inline(always)]
 fn subtract_transposed(tile: &[[f64; TILE]], rows: &[Row; TILE], x: &mut [Row]) {
     for (l, x) in tile.iter().zip(x) {
@@ -85,7 +85,7 @@ fn subtract_transposed(tile: &[[f64; TILE]], rows: &[Row; TILE], x: &mut [Row]) 
     }
 }
 
-/// The part of x ← L⁻ᵀD⁻¹x for one supernode.
+/// The part of x ← L⁻ᵀD⁻¹x that one supernode contributes.
 #[inline(always)]
 fn backward(node: &Node, x: &mut [Row], top: &mut Vec<Row>) {
     top.clear();

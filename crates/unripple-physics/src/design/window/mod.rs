@@ -1,4 +1,5 @@
-//! The time-reversal window (the length of the responses that are reversed): contrast against the window, and the recommended one.
+//! The time-reversal window (the length of the responses that are reversed): contrast (velocity at the
+//! focus over the rms elsewhere) against the window, and the recommended window.
 
 mod modal;
 mod places;
@@ -11,8 +12,8 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use unripple_core::{Responses, Surface};
 
-/// Share of the largest contrast that the recommended window reaches: a longer one would gain little for its delay. At 1, the
-/// window of the largest contrast would be recommended, however long it is.
+/// Share of the largest contrast that the recommended window reaches: a longer window would gain little for
+/// its delay. At 1, the window of the largest contrast would be recommended, however long it is.
 pub(super) const WORTHWHILE: f64 = 0.9;
 
 /// Least number of times that waves cross the surface in a window, along the mean chord. In a shorter window waves do not
@@ -24,25 +25,28 @@ const CROSSINGS: f64 = 3.0;
 const CROSSED: &str =
     "in which waves cross the surface three times, the shortest in which they reach every part of it";
 
-/// The longest window that is considered, in seconds. The delay of a focus is the window, and a longer one is of no use. Where
-/// losses grow with frequency, contrast can keep growing for minutes, as the lowest modes outlast the others. With twice this value,
-/// such surfaces get longer windows.
+/// The longest window that is considered, in seconds; four times the shortest window if that is longer. A
+/// window delays the focus by its length, and a longer delay is of no use. Where losses grow with
+/// frequency, contrast can keep growing for minutes, as the lowest modes outlast the others. With twice
+/// this value, such surfaces get longer windows.
 const LONGEST: f64 = 0.5;
 
 /// Share of the largest contrast that counts as equal to it: the window of the largest contrast is taken as the shortest with
 /// this share. At 1, it would depend on the last digits of a curve that is nearly flat.
 const AS_GOOD: f64 = 0.995;
 
-/// Number of windows computed for each doubling: contrast changes by at most 6 % from one to the next, and is
-/// interpolated. With twice this value, the curve takes twice as long.
+/// Number of windows computed for each doubling of the window: contrast changes by at most 6 % from one to
+/// the next, and is interpolated. With twice this value, the curve takes twice as long.
 const PER_DOUBLING: f64 = 6.0;
 
-/// Relative accuracy of the frequencies. The mean contrast over many targets depends on the number and statistics of the
-/// modes, not on the exact frequency of each. Smaller, modes take longer and contrast stays the same.
+/// Relative accuracy of the natural frequencies. The mean contrast over many targets depends on the number
+/// and statistics of the modes, not on the exact frequency of each. Smaller, modes take longer and contrast
+/// stays the same.
 const ACCURACY: f64 = 1e-3;
 
-/// Largest number of modes below the top of the band for which they are solved for. The work grows as its square, and
-/// statistics are accurate for more modes. With twice this value, the largest surfaces take four times as long.
+/// Largest number of modes below the top of the band up to which they are solved for. The work grows as its
+/// square, and statistics are accurate for more modes. With twice this value, the largest surfaces take
+/// four times as long.
 const MOST_MODES: f64 = 2000.0;
 
 /// Contrast of a time-reversed focus as a function of its window T, for the actuators of a surface.
@@ -63,35 +67,39 @@ const MOST_MODES: f64 = 2000.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Windows {
-    /// Contrast against window in s, ascending.
+    /// Pairs of window (s) and contrast, in order of ascending window.
     curve: Vec<(f64, f64)>,
-    /// The contrasts of nine targets in ten for each of these windows; none where the curve is computed from statistics.
+    /// The 5 % and 95 % quantiles of the contrast over targets, for each window; empty where the curve is
+    /// computed from statistics.
     spread: Vec<[f64; 2]>,
-    /// Expected contrast of any number of actuators, from the modes; `None` where the curve is computed from statistics of the band.
+    /// Expected contrast for any number of actuators, from the modes; `None` where the curve is computed
+    /// from statistics of the band.
     by_modes: Option<Statistics>,
-    /// Why the curve is computed from statistics, if it is.
+    /// Why the curve is computed from statistics; `None` if it is computed from the modes.
     statistics: Option<String>,
 }
 
-/// A recommended window, its contrast, and the reason for it.
+/// A recommended length of the time-reversal window, its contrast, and the reason for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recommended {
-    /// The window, in s, rounded up to three digits.
+    /// The recommended window, in s, rounded up to three digits.
     pub seconds: f64,
-    /// Expected contrast with this window.
+    /// Expected contrast with the recommended window.
     pub contrast: f64,
     /// The largest contrast among all windows considered.
     pub largest: f64,
     /// The shortest window whose contrast is within half a per cent of the largest, in s.
     pub largest_at: f64,
-    /// Whether this is the shortest window considered, in which waves cross the surface three times.
+    /// Whether the recommended window is the shortest one considered, in which waves cross the surface
+    /// three times.
     pub at_floor: bool,
-    /// Why this window is recommended, in words, without its length.
+    /// Why this window is recommended, in words, without the window's length.
     pub why: String,
 }
 
 impl Recommended {
-    /// This window, or `longest` (s), the length of the responses, if that is shorter; `windows` gives the contrast there.
+    /// Limits the recommended window to `longest` (s), the length of the responses; `windows` gives the
+    /// contrast at the limit.
     pub fn within(self, longest: f64, windows: &Windows) -> Self {
         if self.seconds <= longest {
             return self;
@@ -104,14 +112,15 @@ impl Recommended {
         Self { seconds: longest, contrast: windows.contrast(longest), why, ..self }
     }
 
-    /// The window in words: its length in milliseconds, and why it is recommended.
+    /// Text for people: the length of the window in milliseconds, and why it is recommended.
     pub fn text(&self) -> String {
         format!("{} ms, {}", milliseconds(self.seconds), self.why)
     }
 }
 
 impl Windows {
-    /// The contrast against window of a surface. Takes as long as a coarse solution for its modes.
+    /// Computes the contrast of a surface against the window. Takes as long as a coarse solution for its
+    /// modes.
     pub fn of(surface: &Surface) -> Self {
         let top = surface.emission.band[1];
         let below = Weyl::of(surface).below(Medium::of(&surface.sheet).wavenumber(TAU * top));
@@ -137,8 +146,8 @@ impl Windows {
         }
     }
 
-    /// The contrast against window of a surface from statistics, without solving for its modes, which is much faster. `reason` says why,
-    /// for people.
+    /// Computes the contrast of a surface against the window from statistics, without solving for its
+    /// modes, which is much faster. `reason` says, for people, why statistics are used.
     pub fn by_law(surface: &Surface, reason: impl Into<String>) -> Self {
         let first = Medium::of(&surface.sheet).omega(Weyl::of(surface).first_wavenumber()) / TAU;
         let [low, top] = surface.emission.band;
@@ -150,7 +159,8 @@ impl Windows {
         })
     }
 
-    /// The curve of a function that gives the contrast for a window (s), and those of nine targets in ten, at all windows that are considered.
+    /// Evaluates `contrast`, which gives the mean contrast and its 5 % and 95 % quantiles for a window (s),
+    /// at all windows that are considered.
     fn along(
         surface: &Surface,
         statistics: Option<String>,
@@ -180,7 +190,7 @@ impl Windows {
         self.shortest(WORTHWHILE)
     }
 
-    /// The shortest window whose contrast reaches the share `share` (0 to 1) of the largest.
+    /// The shortest window whose contrast reaches the given `share` (0 to 1) of the largest contrast.
     pub fn shortest(&self, share: f64) -> Recommended {
         let known = self.curve.iter().map(|(_, c)| *c).filter(|c| c.is_finite());
         let Some(largest) = known.max_by(f64::total_cmp) else {
@@ -206,26 +216,27 @@ impl Windows {
         Recommended { seconds, contrast: self.contrast(seconds), largest, largest_at, at_floor, why }
     }
 
-    /// Expected contrast (a ratio of amplitudes) for a window, in s. Interpolated between the windows considered; beyond the
-    /// shortest and the longest it is that of the nearest.
+    /// Expected contrast (a ratio of amplitudes) for a window, in s. Interpolated between the computed
+    /// windows; a window shorter or longer than all of them takes the contrast of the nearest.
     pub fn contrast(&self, window: f64) -> f64 {
         self.interpolated(window, |i| Some(self.curve[i].1)).unwrap_or(f64::NAN)
     }
 
-    /// The contrasts that one target in twenty stays below, and one in twenty exceeds, for a window in s; `None` where they are not computed
-    /// from the modes.
+    /// The 5 % and 95 % quantiles of the contrast over targets, for a window in s; `None` where they are
+    /// not computed from the modes.
     pub fn interval(&self, window: f64) -> Option<[f64; 2]> {
         let end = |which: usize| self.interpolated(window, |i| Some(self.spread.get(i)?[which]));
         Some([end(0)?, end(1)?])
     }
 
-    /// Expected contrast for each number of `actuators` like those of the surface and a window in s, from the modes; `None` where these are
-    /// not known.
+    /// Expected contrast for each number of `actuators` like those of the surface and a window in s, from
+    /// the modes; `None` where the modes are not known.
     pub fn expected(&self, actuators: &[f64], window: f64) -> Option<Vec<f64>> {
         Some(self.by_modes.as_ref()?.contrasts(actuators, window))
     }
 
-    /// A value along the curve at a window (s), from its values at the windows considered.
+    /// A quantity at a window (s), interpolated between its values at the computed windows, which `value`
+    /// gives by index.
     fn interpolated(&self, window: f64, value: impl Fn(usize) -> Option<f64>) -> Option<f64> {
         let after = self.curve.partition_point(|(t, _)| *t < window);
         let last = self.curve.len().checked_sub(1)?;
@@ -270,7 +281,8 @@ pub fn milliseconds(seconds: f64) -> String {
     format!("{ms:.decimals$}")
 }
 
-/// A window in s, rounded up to three digits, so that it is printed exactly and still reaches the contrast it was chosen for.
+/// A window in s, rounded up to three digits, so that it is printed exactly and still reaches the contrast
+/// for which it was chosen.
 fn rounded_up(seconds: f64) -> f64 {
     if !(seconds > 0.0 && seconds.is_finite()) {
         return seconds;

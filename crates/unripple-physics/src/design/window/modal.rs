@@ -1,4 +1,5 @@
-//! Contrast of time reversal against its window in closed form, from modal responses.
+//! Contrast of time reversal (velocity at the focus over the rms elsewhere) against its window in closed
+//! form, from modal responses.
 
 use super::places::{grid, targets};
 use unripple_core::{ModalResponses, Onset, Point, Pole};
@@ -10,21 +11,21 @@ use unripple_linalg::{Accum, Mat, MatRef, Par, c64, multiply};
 /// Σ_m φ_m(x) Σ_n (Σ_a b_am b_an) I_mn φ_n(A), with I_mn = ∫_0^T g_m g_n dt a sum of exponentials of T.
 pub struct Modal {
     terms: Vec<Term>,
-    /// Σ_a b_am b_an, modes x modes.
+    /// Products of the input weights b, summed over actuators: Σ_a b_am b_an, modes x modes.
     gains: Mat<f64>,
-    /// Shapes at the targets, modes x targets.
+    /// Mode shapes at the targets, modes x targets.
     targets: Mat<f64>,
-    /// Shapes at the grid's points, points x modes.
+    /// Mode shapes at the grid's points, points x modes.
     points: Mat<f64>,
-    /// Points inside the focal disc of each target.
+    /// Indices of the grid points inside the focal disc of each target.
     within: Vec<Vec<usize>>,
 }
 
-/// Share of the targets whose contrast is below the lower end of the interval that is given, and above its upper end. With twice this
-/// value, one target in five lies outside it.
+/// Share of the targets whose contrast lies below the interval of contrasts that is reported, and share
+/// above it. With twice this value, one target in five lies outside the interval.
 const TAIL: f64 = 0.05;
 
-/// Re a e^{st}, a part of the velocity of a mode.
+/// An exponential Re a e^{st}, a part of the velocity of a mode after an impulse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
     /// Index of the mode.
@@ -73,7 +74,7 @@ impl Modal {
         &self.terms
     }
 
-    /// Mean square shape of each mode, in 1/kg: over the targets, and over the grid.
+    /// Mean square of each mode shape, in 1/kg: first over the targets, then over the grid.
     pub fn mean_squares(&self) -> [Vec<f64>; 2] {
         let modes = 0..self.gains.nrows();
         let targets =
@@ -82,8 +83,8 @@ impl Modal {
         [targets.collect(), points.collect()]
     }
 
-    /// Contrast at the focal instant of a window in seconds, from the mean of 1/C² over the targets, and the contrasts that a twentieth of the
-    /// targets stay below and above.
+    /// Contrast at the focal instant for a window in seconds: its mean, from the mean of 1/C² over the
+    /// targets, and its 5 % and 95 % quantiles over the targets.
     pub fn contrast(&self, window: f64) -> (f64, [f64; 2]) {
         let states = product(self.left(window).as_ref(), self.targets.as_ref());
         let field = product(self.points.as_ref(), states.as_ref());
@@ -103,7 +104,8 @@ impl Modal {
         (mean, [share(1.0 - TAIL), share(TAIL)])
     }
 
-    /// Amplitude that a unit of mode n at the target gives to mode m at the focal instant, modes x modes.
+    /// Amplitude of mode m at the focal instant per unit of the shape of mode n at the target, modes x
+    /// modes.
     fn left(&self, window: f64) -> Mat<f64> {
         let modes = self.gains.nrows();
         let mut left = Mat::zeros(modes, modes);
@@ -134,14 +136,15 @@ fn squares<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
     values.map(|v| v * v).sum()
 }
 
-/// ∫_0^T Re a e^{st} Re b e^{rt} dt in s, for a window T in s, with e^{sT} and e^{rT}.
+/// The integral ∫_0^T Re a e^{st} Re b e^{rt} dt of two terms, in s, for a window T in s; the caller passes
+/// e^{sT} and e^{rT}.
 pub fn integral([a, b]: [&Term; 2], [end, other]: [c64; 2], window: f64) -> f64 {
     let sum = a.amplitude * b.amplitude * gathered(a.rate + b.rate, end * other, window)
         + a.amplitude * b.amplitude.conj() * gathered(a.rate + b.rate.conj(), end * other.conj(), window);
     0.5 * sum.re
 }
 
-/// ∫_0^T e^{st} dt, with e^{sT}.
+/// The integral ∫_0^T e^{st} dt; the caller passes e^{sT}.
 fn gathered(rate: c64, end: c64, window: f64) -> c64 {
     let x = rate * window;
     if x.norm() < 1e-5 {
@@ -178,7 +181,8 @@ fn exponentials(mode: usize, pole: Pole) -> Vec<Term> {
     ]
 }
 
-/// The matrix product on one thread, which sums in one order, so that the same surface has the same window to the last bit.
+/// The matrix product on one thread, with sums in a fixed order, so that a surface always gets exactly the
+/// same window.
 fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut sum = Mat::zeros(a.nrows(), b.ncols());
     multiply(sum.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);

@@ -1,37 +1,40 @@
-//! The error of frequencies from three meshes, each finer than the one before, by the rate at which they converge.
+//! The error of frequencies estimated from three meshes, each finer than the mesh before, by the rate at
+//! which they converge.
 
 use super::sizing::PACE;
 
-/// Frequencies found on a mesh.
+/// The frequencies computed on one mesh.
 #[derive(Clone, Debug)]
 pub(super) struct Level {
-    /// Its mean edge length, in metres.
+    /// Mean edge length of the mesh, in metres.
     pub(super) edge: f64,
     /// ω² of the modes, ascending, in 1/s².
     pub(super) squares: Vec<f64>,
 }
 
-/// Factor on the estimated error: differences of two unstructured meshes vary by about 2 from one pair of meshes to another. At 3, one
-/// statement in a hundred would be below the true error.
+/// Safety factor on the estimated error: differences of two unstructured meshes vary by a factor of about 2
+/// from one pair of meshes to another. At 3, one estimate in a hundred would be below the true error.
 const SAFETY: f64 = 4.0;
-/// Modes on each side of one whose differences are taken together with its own: one difference alone may be small by chance.
-/// Doubled, few modes at the top would hide the rate of more below them.
+/// Number of modes on each side of a mode whose differences are considered together with its own, since a
+/// single difference may be small by chance. Doubled, a few modes at the top would hide the rate of many
+/// modes below them.
 const REACH: usize = 2;
-/// Least and greatest order of convergence in the edge length that is taken as measured. The greatest is the one that meshes are made
-/// for everywhere: where smooth parts of the error fall faster, they hide what is left of the others.
+/// Least and greatest order of convergence in the edge length that is accepted as measured. The greatest is
+/// the order for which meshes are made everywhere: where smooth parts of the error fall faster, they hide
+/// what is left of the others.
 const ORDERS: [f64; 2] = [1.5, PACE];
-/// Order assumed where it could not be measured: the error that is left is about as large as the last difference, if edges are 1.3 times
-/// shorter.
+/// Order of convergence assumed if it could not be measured: with it, the remaining error is about as large
+/// as the last difference, if edges are 1.3 times shorter.
 const ASSUMED: f64 = 2.6;
-/// What is left of rounding in the solution of the eigenvalue problem, relative.
+/// Relative rounding error of frequencies in the solution of the eigenvalue problem.
 const ROUNDING: f64 = 2e-9;
 
-/// Least ratio of the mean edges of two meshes that are compared: rims may keep meshes alike that were to differ. Nearer to 1, their
-/// difference says nothing of either.
+/// Least ratio of the mean edge lengths of two meshes that are compared: narrow rims may give similar
+/// meshes for different plans. Nearer to 1, their difference says nothing about either error.
 const APART: f64 = 1.12;
 
-/// A bound of the relative error of any frequency of the last level, from three of which each is clearly finer than the one before.
-/// Infinite unless there are two levels with about as many modes.
+/// An upper bound of the relative error of any frequency on the last mesh, from three meshes each clearly
+/// finer than the mesh before. Infinite unless there are two meshes with about equal numbers of modes.
 ///
 /// Where edges get shorter by a factor a and then by b, an error C h^q leaves differences of the ratio (a^q - 1)/(1 - b^-q), from
 /// which q follows (Richardson), and the error d/(b^q - 1) with d the last difference. That of the difference before, taken to fall at
@@ -56,15 +59,17 @@ pub(super) fn error(levels: &[Level]) -> f64 {
     SAFETY * (0..last.len()).map(of).fold(0.0, f64::max) + ROUNDING
 }
 
-/// The share of the accuracy that the error on the third mesh is planned to have, taken to fall at [`PACE`]: it falls faster on most
-/// sheets, and not at all on those whose coarser meshes say little yet.
+/// Share of the requested accuracy that the error on the third mesh is planned to have, if the error falls
+/// as the power [`PACE`] of the edge length: it falls faster on most sheets, and not at all on those whose
+/// coarser meshes are still too coarse.
 const PLANNED: f64 = 0.6;
-/// Least and greatest factor by which edges of the third mesh are shorter than those of the second. Less, and their difference says
-/// nothing of either; more, and the third costs more than another one would.
+/// Least and greatest factor by which edges of the third mesh are shorter than those of the second. Less,
+/// and their difference says nothing about either error; more, and the third mesh costs more than a fourth
+/// would.
 const THIRD: [f64; 2] = [1.25, 1.6];
 
-/// The factor by which edges of a third mesh are to be shorter than those of the second of two levels, so that the bound of its error is
-/// `accuracy`.
+/// The factor by which edges of a third mesh are to be shorter than those of the second of two meshes, so
+/// that the bound of its error is `accuracy`.
 pub(super) fn finer(levels: &[Level], accuracy: f64) -> f64 {
     let [least, most] = THIRD;
     let [coarse, fine] = levels else { return least };
@@ -74,7 +79,8 @@ pub(super) fn finer(levels: &[Level], accuracy: f64) -> f64 {
     (left / (PLANNED * accuracy)).powf(1.0 / PACE).clamp(least, most)
 }
 
-/// The order q for which two successive differences have a ratio, within [`ORDERS`]; a and b are the factors by which edges got shorter.
+/// The order of convergence q, within [`ORDERS`], for which two successive differences have the given
+/// ratio; a and b are the factors by which edges got shorter.
 fn rate(ratio: f64, [a, b]: [f64; 2]) -> f64 {
     let of = |q: f64| (a.powf(q) - 1.0) / (1.0 - b.powf(-q));
     let [mut low, mut high] = ORDERS;
@@ -89,8 +95,8 @@ fn rate(ratio: f64, [a, b]: [f64; 2]) -> f64 {
     low
 }
 
-/// The relative differences of two lists of frequencies, given as squares, up to the end of the shorter; `None` if the finer mesh
-/// has over a tenth and two more.
+/// The relative differences of two lists of frequencies, given as squares, up to the end of the shorter
+/// list; `None` if the finer mesh has more than a tenth plus two additional modes.
 fn differences(coarse: &[f64], fine: &[f64]) -> Option<Vec<f64>> {
     if fine.len() as f64 > 1.1 * coarse.len() as f64 + 2.0 {
         return None;
@@ -99,7 +105,8 @@ fn differences(coarse: &[f64], fine: &[f64]) -> Option<Vec<f64>> {
     Some(coarse.iter().zip(fine).map(differ).collect())
 }
 
-/// The largest of a difference and those of its neighbours; beyond the end, of the last ones.
+/// The largest among the difference with index `j` and those of its neighbours; for an index beyond the
+/// end, among the last ones.
 fn around(differences: &[f64], j: usize) -> f64 {
     let j = j.min(differences.len().saturating_sub(1));
     let end = (j + REACH + 1).min(differences.len());

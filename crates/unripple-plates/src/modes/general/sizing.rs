@@ -1,4 +1,5 @@
-//! Mesh size for a band and an accuracy, with eighth-order convergence assumed; what is singular is refined at the same pace.
+//! Edge lengths of a mesh for a band and an accuracy, assuming convergence of eighth order; edges near
+//! singular points are refined at the same pace.
 
 use crate::Medium;
 use crate::PhysicsError;
@@ -8,54 +9,55 @@ use crate::modes::bounds::Bounds;
 use std::f64::consts::PI;
 use unripple_core::{Edge, Outline, Point, Scatterer, ScattererKind, Surface};
 
-/// Edge length times wavenumber at the top of the band for which errors of frequencies are stated to be about 1e-3: edges of 0.45
-/// wavelengths. Halved, the first mesh has four times the triangles.
+/// Edge length times wavenumber at the top of the band with which the estimated error of frequencies is
+/// about 1e-3: edges of 0.45 wavelengths. Halved, the first mesh has four times the triangles.
 const FILL: f64 = 2.8;
 
-/// Order of convergence in the edge length, from which the edge length for an accuracy follows. If it were lower, first
-/// meshes would be finer than needed.
+/// Order of convergence in the edge length, from which the edge length for an accuracy is computed. If it
+/// were lower, first meshes would be finer than needed.
 const ORDER: f64 = 8.0;
 
-/// Order in the edge length at which, from one mesh to the next, the errors at corners and masses are made to fall: that at which errors
-/// are sure to fall elsewhere. So a comparison of meshes tells them alike.
+/// Order in the edge length at which the errors at corners and masses are made to fall from one mesh to the
+/// next: an order that errors elsewhere are sure to reach. A comparison of meshes then shows all of them.
 pub(super) const PACE: f64 = 6.0;
 
-/// Share of the accuracy asked for that all corners together may take.
+/// Share of the requested accuracy that the errors at all corners together may take.
 const AT_CORNERS: f64 = 0.2;
 
-/// Accuracy up to which edges grow by [`GROWTH`] per distance from shorter ones; for more accuracy by less, since the error that
-/// rings of triangles around them leave falls as the eighth power of their growth.
+/// Relative error down to which edges grow by [`GROWTH`] per distance from shorter ones; for smaller errors
+/// they grow by less, since the error due to rings of triangles around short edges falls as the eighth
+/// power of the growth.
 const COMMON: f64 = 1e-4;
 
-/// Least growth of edges per distance: edges along a line away from a corner get longer by a tenth each. Halved, a corner would take
-/// four times the triangles.
+/// Least growth of edges per distance: along a line away from a corner each edge is a tenth longer than the
+/// edge before. Halved, a corner would take four times the triangles.
 const LEAST_GROWTH: f64 = 0.1;
 
-/// Least and largest edge length times wavenumber, whatever the accuracy: 21 and 1.6 edges per
-/// wavelength. Refinements resolve what these do not.
+/// Least and largest edge length times wavenumber, for any accuracy: 21 and 1.6 edges per wavelength.
+/// Refinements resolve what these do not.
 const FILLS: [f64; 2] = [0.3, 4.0];
 
-/// Number of unknowns for each vertex: six of its own and one for each edge, of which there are three per
-/// vertex.
+/// Number of unknowns per vertex of the mesh: six of the vertex and one for each edge; there are three
+/// edges per vertex.
 const UNKNOWNS: f64 = 9.0;
 
 /// Edge length along a clamped rim at an accuracy of 1e-3, in multiples of √(D/T), the width of the boundary layer where
 /// bending gives way to tension. With twice this value, the layer is resolved half as well, and a refinement follows.
 const LAYER: f64 = 4.0;
 
-/// Longest edge under a disc at an accuracy of 1e-3, in radii: its rim takes a dozen edges. With twice this value, it takes six, and a
-/// refinement follows.
+/// Longest edge under a disc at an accuracy of 1e-3, relative to the disc's radius: the rim is divided into
+/// a dozen edges. With twice this value, into six, and a refinement follows.
 const IN_DISC: f64 = 0.5;
 
 /// Number of places along each side of the bounding box at which the sheet's properties are sampled. Variation within a
 /// thirty-second of a side may be missed, and costs a refinement.
 const LOOKS: usize = 33;
 
-/// A point mass, and the edge length there.
+/// A point mass, and the edge length at it.
 #[derive(Clone, Copy, Debug)]
 struct AtMass {
     at: Point,
-    /// Edge length, in metres.
+    /// Edge length at the mass, in metres.
     edge: f64,
 }
 
@@ -70,22 +72,22 @@ struct AtDisc {
 /// The edge lengths of a mesh for a surface and an accuracy.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
-    /// Edge length inside, in metres.
+    /// Edge length away from corners, masses and discs, in metres.
     size: f64,
-    /// Accuracy that each corner is graded for.
+    /// Relative error that each corner may cause.
     accuracy: f64,
-    /// Growth of edges per distance from shorter ones.
+    /// Growth of edges per distance from shorter edges.
     growth: f64,
     /// Factor by which edges along curves and in narrow places are shorter than needed to follow them.
     finer: f64,
-    /// Largest edge along held rims, as a share of `size`; 1 where there is no layer.
+    /// Largest edge along clamped and supported rims, relative to `size`; 1 if there is no boundary layer.
     layer: f64,
     bends: bool,
     masses: Vec<AtMass>,
     discs: Vec<AtDisc>,
-    /// Where sides meet.
+    /// The corners, where sides meet.
     corners: Vec<Corner>,
-    /// Largest wavenumber anywhere, in rad/m.
+    /// Largest wavenumber at any place of the sheet, in rad/m.
     wavenumber: f64,
     area: f64,
 }
@@ -144,8 +146,8 @@ impl Plan {
         Sizing { growth: self.growth.clamp(LEAST_GROWTH, GROWTH), ..sizing }
     }
 
-    /// A plan with edges `ratio` times longer; at corners and masses so much longer that the errors by them rise as the power [`PACE`]
-    /// of the ratio.
+    /// A plan with edges `ratio` times longer; at corners and masses edges are lengthened so much that the
+    /// errors there rise as the power [`PACE`] of the ratio.
     pub(super) fn coarser(&self, ratio: f64) -> Self {
         // At a mass errors are as the edge squared.
         let at_mass = ratio.powf(0.5 * PACE);
@@ -162,13 +164,14 @@ impl Plan {
         }
     }
 
-    /// The relative error of frequencies by what no comparison with a coarser plan shows.
+    /// The relative error of frequencies due to effects that a comparison with a coarser mesh does not
+    /// show.
     pub(super) fn unresolved(&self) -> f64 {
         unresolved(&self.corners, self.size, self.bends, self.accuracy, self.sizing().growth)
     }
 
-    /// A plan likely to have the relative error `wanted`, after this one had `error`; edges are shortened by at most a factor
-    /// of 1.6.
+    /// A plan that is likely to have the relative error `wanted`, given that this plan had `error`; edges
+    /// are shortened by at most a factor of 1.6.
     pub(super) fn refined(&self, error: f64, wanted: f64) -> Self {
         // Somewhat finer than the error requires; at least 1.25, so that the next difference is above rounding,
         // at most 1.6, which is two and a half times the triangles and hides little of what falls slowly.
@@ -176,25 +179,25 @@ impl Plan {
         self.coarser(1.0 / ratio)
     }
 
-    /// This plan for a top wavenumber lower by the factor `share`.
+    /// This plan for a top wavenumber that is lower by the factor `share`.
     pub(super) fn lower(&self, share: f64) -> Self {
         let share = share.max(1e-6);
         let masses = self.masses.iter().map(|mass| AtMass { edge: mass.edge / share, ..*mass }).collect();
         Self { size: self.size / share, wavenumber: self.wavenumber * share, masses, ..self.clone() }
     }
 
-    /// Approximate number of unknowns of the plan on an outline.
+    /// Approximate number of unknowns that this plan gives on an outline.
     pub(super) fn unknowns(&self, outline: &Outline) -> Result<usize, PhysicsError> {
         Ok((UNKNOWNS * Mesh::estimate(outline, &self.sizing())? as f64) as usize)
     }
 
-    /// Approximate number of modes (Weyl 1911, without the term of the perimeter).
+    /// Approximate number of modes (Weyl 1911, without the perimeter term).
     pub(super) fn modes(&self) -> usize {
         (self.area * self.wavenumber.powi(2) / (4.0 * PI)) as usize + 10
     }
 }
 
-/// Point masses with their edge lengths, for edges of `size` (m) elsewhere and an accuracy.
+/// Point masses with the edge length at each, for edges of `size` (m) elsewhere and a given accuracy.
 fn masses(surface: &Surface, size: f64, accuracy: f64) -> Vec<AtMass> {
     let share = (accuracy / 1e-3).min(1.0);
     // Together with `size`, as the root of the accuracy.
@@ -203,8 +206,8 @@ fn masses(surface: &Surface, size: f64, accuracy: f64) -> Vec<AtMass> {
     masses.map(|mass| AtMass { at: mass.at, edge }).collect()
 }
 
-/// Discs with their edge lengths: at most `in_layer` (m), the length in boundary layers, of which there is one around a stiff disc;
-/// `finer` is the factor for the accuracy.
+/// Discs with the edge length at each: at most `in_layer` (m), the length in boundary layers, since there
+/// is a boundary layer around a stiff disc; `finer` is the factor on edge lengths for the accuracy.
 fn discs(surface: &Surface, in_layer: f64, finer: f64) -> Vec<AtDisc> {
     let disc = |scatterer: &Scatterer| match scatterer.kind {
         ScattererKind::Mass(_) => None,
@@ -215,7 +218,7 @@ fn discs(surface: &Surface, in_layer: f64, finer: f64) -> Vec<AtDisc> {
     surface.sheet.uneven.scatterers.iter().filter_map(disc).collect()
 }
 
-/// The properties of the sheet at a grid of places over an outline; a single one for a uniform sheet.
+/// The properties of the sheet at a grid of points over an outline; a single element for a uniform sheet.
 fn looks(outline: &Outline, fabric: &Fabric) -> Vec<Local> {
     let (width, height) = outline.extent();
     let at = |i: usize, side: f64| side * i as f64 / (LOOKS - 1) as f64;
@@ -226,7 +229,8 @@ fn looks(outline: &Outline, fabric: &Fabric) -> Vec<Local> {
     }
 }
 
-/// The isotropic sheet whose waves are as short as the shortest waves on this one.
+/// An isotropic sheet on which waves are as short as the shortest waves on a sheet with the given local
+/// properties.
 fn medium(local: &Local) -> Medium {
     let softest = local.bending[0].min(local.bending[3]);
     Medium { areal_density: local.mass, tension: local.tension, bending_stiffness: softest, air_sides: 0.0 }

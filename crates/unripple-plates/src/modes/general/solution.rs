@@ -1,21 +1,21 @@
-//! Modes as they are found on one mesh.
+//! The modes computed on one mesh.
 
 use super::rates::Level;
 use crate::elements::Space;
 use crate::spectrum::Pairs;
 
-/// A solution on one mesh.
+/// The modes computed on one mesh.
 pub(super) struct Solution {
     pub(super) space: Space,
     pub(super) pairs: Pairs,
-    /// Bending's share of each mode's elastic energy.
+    /// Share of bending in each mode's elastic energy.
     pub(super) bending_shares: Vec<f64>,
     /// Mean edge length, see [`mean_edge`](super::mean_edge), in metres.
     pub(super) edge: f64,
 }
 
 impl Solution {
-    /// What later meshes are compared with.
+    /// The edge length and the frequencies, for a comparison with later meshes.
     pub(super) fn level(&self) -> Level {
         Level { edge: self.edge, squares: self.pairs.values.clone() }
     }

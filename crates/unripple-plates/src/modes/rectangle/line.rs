@@ -73,7 +73,7 @@ impl Line {
         }
     }
 
-    /// Value, first and second derivative of each polynomial at ξ; of none where the functions are sines.
+    /// Value, first and second derivative of each polynomial at ξ; empty where the functions are sines.
     pub(crate) fn derivatives_at(&self, xi: f64) -> Vec<[f64; 3]> {
         match &self.functions {
             Functions::Sines => Vec::new(),

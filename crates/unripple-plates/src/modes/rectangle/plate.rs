@@ -81,7 +81,7 @@ impl Plate {
         Self { bending: [0.0; 2], lines: self.lines.clone(), springs: self.springs.clone(), ..*self }
     }
 
-    /// Whether something beside bending stores energy.
+    /// Whether tension or springs store energy in addition to bending.
     pub(crate) fn is_held_by_more_than_bending(&self) -> bool {
         self.tension[0] > 0.0 || self.springs.iter().any(Option::is_some)
     }

@@ -4,10 +4,10 @@ use super::line::Line;
 use unripple_core::Edge;
 use unripple_linalg::Mat;
 
-/// The springs at the two ends of a line of functions.
+/// The springs at the two ends of one direction of a rectangle, acting on the basis functions along it.
 #[derive(Clone, Debug)]
 pub(crate) struct Springs {
-    /// Twice their energy over ρ_s, functions x functions, in 1/s².
+    /// Twice the springs' energy over ρ_s, functions x functions, in 1/s².
     pub(crate) energy: Mat<f64>,
     /// Whether a spring resists displacement.
     pub(crate) lift: bool,
