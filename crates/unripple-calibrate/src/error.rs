@@ -12,7 +12,7 @@ pub enum CalibrateError {
     Outside {
         /// Index of the place, from 0.
         place: usize,
-        /// The place asked for.
+        /// The place requested.
         at: Point,
         /// The nearest point of the surface.
         nearest: Point,
@@ -20,14 +20,14 @@ pub enum CalibrateError {
     /// A number is out of its range.
     #[error(transparent)]
     Range(#[from] OutOfRange),
-    /// A count is out of its range: of points, actuators or samples.
+    /// A count (of points, actuators or samples, for example) is out of its range.
     #[error("{what}: expected {expected}, found {found}")]
     Count {
         /// What was counted.
         what: &'static str,
-        /// The legal counts.
+        /// The range of counts accepted, in words.
         expected: String,
-        /// How many there are.
+        /// The count found.
         found: usize,
     },
     /// The kriging equations cannot be solved: their covariance matrix is not positive definite.
@@ -46,7 +46,7 @@ pub enum CalibrateError {
     Unsolvable {
         /// Quantity that was to be determined.
         what: &'static str,
-        /// What the solution needs.
+        /// What the solution requires, in words.
         expected: &'static str,
         /// What was found instead.
         found: String,
@@ -98,7 +98,7 @@ pub enum CalibrateError {
     Recording {
         /// Part of the recording or device that is not suitable.
         what: String,
-        /// What was expected of it.
+        /// What was expected of that part, in words.
         expected: String,
         /// What was found instead.
         found: String,

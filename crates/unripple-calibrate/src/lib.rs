@@ -6,11 +6,12 @@
 //!
 //! # In reading order
 //!
-//! [`signals::Sweep`] and [`signals::Deconvolver`] are the two halves of a measurement, the signal and the way back
-//! from its recording. A [`measure::Session`] measures the responses of all actuators at a place, and
-//! [`measure::campaign()`] does so at many. [`Between`] interpolates responses between the measured points, [`fit()`]
-//! finds the model of the surface that explains them, [`verify::check()`] compares the two, and a [`Tracker`] follows
-//! the tension of the sheet afterwards.
+//! [`signals::Sweep`] and [`signals::Deconvolver`] are the two halves of a measurement: the signal that is
+//! played, and the computation of the response from its recording. A [`measure::Session`] measures the
+//! responses of all actuators at a place, and [`measure::campaign()`] does so at many. [`Between`]
+//! interpolates responses between the measured points, [`fit()`] finds the model of the surface that
+//! explains them, [`verify::check()`] compares the two, and a [`Tracker`] follows the tension of the sheet
+//! afterwards.
 //!
 //! ```
 //! use unripple_calibrate::signals::{Deconvolver, Inversion, Sweep};

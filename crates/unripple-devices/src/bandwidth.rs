@@ -1,10 +1,11 @@
-//! The frequency up to which a virtual surface needs modes.
+//! The highest frequency of the modes that a virtual surface needs.
 
 use crate::DevicesError;
 use unripple_core::Surface;
 use unripple_physics::stepped_hz;
 
-/// Top frequency of a surface's modes, in Hz: `asked`, or what the surface's band needs.
+/// Highest frequency of the modes computed for a surface, in Hz: `asked` if specified, otherwise what the
+/// surface's band needs.
 ///
 /// # Errors
 /// [`DevicesError::Physics`] for actuators that are not valid.

@@ -2,15 +2,17 @@
 
 use unripple_dsp::{kaiser, sinc};
 
-/// Half the length of the interpolator, in samples: the least delay that is not whole. With half of it the error
-/// below 0.4 of the sample rate would be above 1e-4; twice as much doubles the least delay and the work.
+/// Half the length of the interpolator, in samples, which is also the smallest delay that is not a whole
+/// number. With half of it the error below 0.4 of the sample rate would be above 1e-4; twice as much doubles
+/// the least delay and the work.
 pub(crate) const HALF: usize = 24;
 
-/// A delay of several channels by a number of samples that need not be whole: a windowed sinc (Kaiser, β = 10), whose
-/// error is below 1e-4 up to 0.4 of the sample rate.
+/// A delay of several channels by a number of samples that may be fractional: a windowed sinc (Kaiser, β =
+/// 10), whose error is below 1e-4 up to 0.4 of the sample rate.
 #[derive(Clone, Debug)]
 pub(crate) struct Delay {
-    /// Weights of the samples from `first` back to the oldest; one weight of 1 where the delay is whole.
+    /// Weights of the samples from `first` back to the oldest; a single weight of 1 if the delay is a whole
+    /// number.
     weights: Vec<f64>,
     first: usize,
     /// For each channel, its newest samples, the newest last.

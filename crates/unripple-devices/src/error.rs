@@ -15,55 +15,55 @@ pub enum DevicesError {
     /// A value is out of its range.
     #[error(transparent)]
     Range(#[from] OutOfRange),
-    /// Sizes do not agree.
+    /// A count, such as that of channels or samples, is not the one expected.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
-        /// What is counted.
+        /// What was counted.
         what: &'static str,
-        /// How many there should be.
+        /// The count expected.
         expected: usize,
-        /// How many there are.
+        /// The number found.
         found: usize,
     },
     /// A device has too few channels.
     #[error("{device}: expected at least {expected} {what}, found {found}; {fix}")]
     Channels {
-        /// The device's own name.
+        /// Name of the device.
         device: String,
-        /// Playback or capture ports, or what else is counted.
+        /// Which channels were counted, such as playback ports.
         what: &'static str,
-        /// How many are needed.
+        /// Number of channels needed.
         expected: usize,
-        /// How many there are.
+        /// The number found.
         found: usize,
-        /// How to fix it.
+        /// How to fix it, in words.
         fix: String,
     },
-    /// More taps at once than the virtual surface was made for.
+    /// More simultaneous taps than the virtual surface was made for.
     #[error("taps at once: expected at most {most}, found one more")]
     Taps {
-        /// How many there may be.
+        /// Largest number of simultaneous taps.
         most: usize,
     },
-    /// No sound server answers, or it refuses.
+    /// No JACK server answers, or the server refused a request.
     #[error("JACK: {what}; {fix}")]
     Jack {
-        /// What the server did or did not do.
+        /// What went wrong with the server, in words.
         what: String,
-        /// How to fix it.
+        /// How to fix it, in words.
         fix: String,
     },
-    /// There is no such sound card, or it refuses.
+    /// There is no such sound card, or the card refused a request.
     #[error("sound card: {what}; {fix}")]
     Card {
-        /// What the card did or did not do.
+        /// What went wrong with the card, in words.
         what: String,
-        /// How to fix it.
+        /// How to fix it, in words.
         fix: String,
     },
 }
 
-/// A typed error unless two counts agree.
+/// Checks that two counts are equal.
 pub(crate) fn same(what: &'static str, found: usize, expected: usize) -> Result<(), DevicesError> {
     if found == expected { Ok(()) } else { Err(DevicesError::Size { what, expected, found }) }
 }

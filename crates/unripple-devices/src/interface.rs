@@ -12,15 +12,18 @@ use unripple_core::{Layout, Random, require};
 /// inputs, the probe included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
-    /// Factor of each output's drive; empty for 1. Negative where a wire is reversed.
+    /// Gain of each output, a factor on its drive, negative for a reversed wire; an empty list means 1 for
+    /// all outputs.
     pub drive_gains: Vec<f64>,
-    /// Factor of each input; empty for 1.
+    /// Gain of each input, a factor on its signal; an empty list means 1 for all inputs.
     pub heard_gains: Vec<f64>,
-    /// Root mean square of white noise on each input, in its own unit; empty for none.
+    /// Root mean square of white noise on each input, in the input's unit; an empty list means no noise.
     pub noise: Vec<f64>,
-    /// Latency of all inputs, in samples: a whole number, or at least 24.
+    /// Latency of all inputs, in samples: a whole number, or a fractional number of at least 24, for which
+    /// the interpolator is made.
     pub latency: f64,
-    /// Number of blocks after which the device is lost; `None` for never.
+    /// Number of blocks after which the device fails with
+    /// [`DeviceError::Lost`](unripple_core::DeviceError::Lost); `None` for never.
     pub vanish_after: Option<u64>,
     /// Seed of the noise.
     pub seed: u64,
@@ -72,7 +75,7 @@ impl Converter {
         Ok(Self { delay: Delay::new(inputs, late), random, interface })
     }
 
-    /// Begins the noise anew, another for each seed.
+    /// Restarts the noise with another seed.
     pub(crate) fn reseed(&mut self, seed: u64) {
         self.random = Random::seeded(self.interface.seed ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     }
@@ -91,7 +94,7 @@ impl Converter {
         }
     }
 
-    /// Applies gains, noise and latency to what arrives in a block, in place.
+    /// Applies gains, noise and latency to a block of input signals, in place.
     pub(crate) fn hear(&mut self, frames: usize, planes: &mut [f64]) {
         self.delay.process(planes, frames);
         let levels = self.interface.heard_gains.iter().zip(&self.interface.noise);

@@ -1,16 +1,17 @@
 //! Virtual surfaces, sound servers and files as one kind of device.
 //!
 //! A device exchanges blocks of drive samples for blocks of recorded samples, through the trait
-//! [`Device`](unripple_core::Device) of `unripple-core`. What is to be played is computed elsewhere, and recordings are
-//! turned into responses by `unripple-calibrate`.
+//! [`Device`](unripple_core::Device) of `unripple-core`. Drives are computed by other crates, and
+//! `unripple-calibrate` computes responses from recordings.
 //!
 //! # In reading order
 //!
-//! [`Virtual`] is a simulated surface as a device; its [`Handle`] moves a probe, taps, and puts fingers down, and a
-//! [`Perturbation`] makes the surface differ from its model. A [`Feeler`] computes what the fingers feel. [`Tape`] keeps
-//! a drive and plays recordings to its inputs; [`Jack`] is a sound server; with the feature `cards`, `cards::Card` is a
-//! sound card. [`check_wiring`] finds channels that are silent, swapped or reversed, [`check_responses`] and
-//! [`reciprocal`] find them in recordings; [`list`] lists the devices that are available.
+//! [`Virtual`] is a simulated surface as a device; its [`Handle`] moves a probe, taps, and puts fingers
+//! down, and a [`Perturbation`] makes the surface differ from its model. A [`Feeler`] computes what the
+//! fingers feel. [`Tape`] stores a drive and returns recordings as its inputs; [`Jack`] is a sound server;
+//! with the feature `cards`, `cards::Card` is a sound card. [`check_wiring`] finds channels that are silent,
+//! swapped or reversed, [`check_responses`] and [`reciprocal`] find them in recordings; [`list`] lists the
+//! devices that are available.
 //!
 //! ```
 //! use unripple_core::Device;

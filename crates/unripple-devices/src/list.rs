@@ -6,35 +6,35 @@ use std::path::Path;
 /// Entry of the list of devices: a device that is available, or the reason why one is not.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Found {
-    /// A virtual surface: as many channels as a surface has actuators, any rate and block.
+    /// A virtual surface, with a channel for each actuator of a surface, at any sample rate and block size.
     Virtual,
-    /// Samples in files: as many channels as wanted, any rate.
+    /// A tape: drive and recordings are files, with any number of channels, at any sample rate.
     Tape,
     /// A JACK server that answers.
     Jack(Server),
-    /// No JACK server answers, and why.
+    /// No JACK server answers, for the reason in the string.
     NoJack(String),
     /// A sound card, as the kernel describes it.
     Card {
         /// Number of the card, as the kernel counts cards.
         index: usize,
-        /// Name of the card, as the kernel gives it.
+        /// Name of the card, as the kernel reports it.
         name: String,
         /// Streams of the card, each one direction of one device.
         streams: Vec<Stream>,
     },
 }
 
-/// A JACK server.
+/// Properties of a JACK server: rate, cycle length and ports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Server {
     /// Samples per second.
     pub rate: f64,
     /// Samples per cycle.
     pub block: usize,
-    /// Full names of the ports that sound can be sent to.
+    /// Full names of the ports to which sound can be sent.
     pub playback: Vec<String>,
-    /// Full names of the ports that sound comes from.
+    /// Full names of the ports from which sound comes.
     pub capture: Vec<String>,
 }
 
@@ -45,14 +45,16 @@ pub struct Stream {
     pub device: String,
     /// Whether the stream plays; otherwise it records.
     pub playback: bool,
-    /// Channel counts that the stream offers, ascending; empty where the kernel does not say (only USB cards do).
+    /// Channel counts that the stream offers, ascending; empty if the kernel does not report them (it does
+    /// for USB cards only).
     pub channels: Vec<usize>,
-    /// Sample rates that the stream offers, in Hz, ascending; empty where the kernel does not say.
+    /// Sample rates that the stream offers, in Hz, ascending; empty if the kernel does not report them (it
+    /// does for USB cards only).
     pub rates: Vec<f64>,
 }
 
-/// All devices that are available, the virtual surface first. Asks the JACK server of the given name, or the default
-/// one.
+/// Lists all devices that are available, the virtual surface first. The JACK server of the specified name,
+/// or the default one, is contacted.
 ///
 /// ```
 /// assert_eq!(unripple_devices::list(None)[0], unripple_devices::Found::Virtual);

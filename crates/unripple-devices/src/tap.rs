@@ -20,21 +20,22 @@ pub struct Tap {
 }
 
 impl Tap {
-    /// A pulse of these forces, one for each sample, in N. One that is not finite counts as 0.
+    /// A pulse with the forces `force`, in N, one for each sample. A force that is not finite counts as 0.
     pub fn new(force: Vec<f64>) -> Self {
         let finite = |f: f64| if f.is_finite() { f } else { 0.0 };
         Self { force: force.into_iter().map(finite).collect() }
     }
 
-    /// Half a sine of some peak (N) and duration (s, one second at most); `rate` is in samples per second.
+    /// A pulse of half a sine with a peak (N) and a duration (s, one second at most); `rate` is in samples
+    /// per second.
     pub fn half_sine(peak: f64, duration: f64, rate: f64) -> Self {
         let samples = (duration.clamp(0.0, 1.0) * rate).ceil() as usize;
         let at = |i: usize| (PI * (i as f64 + 0.5) / (duration * rate).max(1.0)).sin().max(0.0);
         Self::new((0..samples).map(|i| peak * at(i)).collect())
     }
 
-    /// A random pulse, the same for one seed: 0.1 to 1 ms long, 0.5 to 5 N strong, skewed, more or less peaked, and in one
-    /// of three cases with a weaker bounce 3 to 12 ms later.
+    /// A random pulse; equal seeds give equal pulses: 0.1 to 1 ms long, 0.5 to 5 N strong, skewed, more or
+    /// less peaked, and in one of three cases with a weaker bounce 3 to 12 ms later.
     pub fn random(seed: u64, rate: f64) -> Self {
         let mut random = Random::seeded(seed);
         let mut force = Self::bump(&mut random, rate);
@@ -61,12 +62,12 @@ impl Tap {
         (0..samples).map(|i| peak * (PI * at(i).powf(skew)).sin().max(0.0).powf(power)).collect()
     }
 
-    /// The forces, in N.
+    /// The force of the pulse at each sample, in N.
     pub fn force(&self) -> &[f64] {
         &self.force
     }
 
-    /// Sum of the forces over the rate: the impulse, in N·s.
+    /// The impulse, in N·s: the sum of the forces divided by `rate` (samples per second).
     pub fn impulse(&self, rate: f64) -> f64 {
         self.force.iter().sum::<f64>() / rate
     }

@@ -1,11 +1,13 @@
-//! A device without a sound system: it keeps its drive, and its inputs play a recording given beforehand.
+//! A device without a sound system: it stores its drive, and its inputs return a recording that was
+//! specified before.
 
 use crate::DevicesError;
 use crate::error::same;
 use unripple_core::{Device, DeviceError, Layout, State, Status};
 
-/// A device without a sound system: its drive is kept in memory, and its inputs play a recording given beforehand. So
-/// drives can be played on other equipment, recorded there, and the recordings brought back.
+/// A device without a sound system: its drive is stored in memory, and its inputs return a recording that
+/// was specified before. So drives can be played and recorded on other equipment, and the recordings brought
+/// back.
 ///
 /// ```
 /// use unripple_core::{Device, Layout};
@@ -34,7 +36,7 @@ pub struct Tape {
 }
 
 impl Tape {
-    /// A tape that only keeps its drive; its inputs are silent.
+    /// A tape that only stores its drive; its inputs are silent.
     ///
     /// # Errors
     /// [`DevicesError::Size`] for blocks of no samples.
@@ -44,8 +46,8 @@ impl Tape {
         Ok(Self { layout, drive, recording: None, status: Status::default() })
     }
 
-    /// A tape whose inputs play a recording, `[input][sample]`, 1 for full scale. After its end the device is lost,
-    /// since what would have been recorded is not known.
+    /// A tape whose inputs return a recording, `[input][sample]`, 1 for full scale. After its end the device
+    /// reports that it is lost, since later input signals are unknown.
     ///
     /// # Errors
     /// [`DevicesError::Size`] for another number of lines than inputs or lines of different length.
@@ -56,12 +58,12 @@ impl Tape {
         Ok(Self { recording: Some(recording), ..Self::recorder(layout)? })
     }
 
-    /// The drive so far, `[output][sample]`, 1 for full scale.
+    /// The drive sent so far, `[output][sample]`, 1 for full scale.
     pub fn drive(&self) -> &[Vec<f32>] {
         &self.drive
     }
 
-    /// The whole drive, `[output][sample]`, 1 for full scale.
+    /// Consumes the tape and returns the whole drive, `[output][sample]`, 1 for full scale.
     pub fn into_drive(self) -> Vec<Vec<f32>> {
         self.drive
     }

@@ -1,4 +1,4 @@
-//! Where and when a focus is evaluated, and options for it.
+//! Where and when a focus is evaluated, and options of the evaluation.
 
 use crate::{Field, FieldError};
 use std::ops::Range;
@@ -15,7 +15,7 @@ pub struct Aim {
 }
 
 impl Aim {
-    /// One point (m) in focus at an instant (s).
+    /// An aim at one point (m) that should be in focus at an instant (s).
     pub fn at(point: Point, instant: f64) -> Self {
         Self { points: vec![point], instant }
     }
@@ -43,19 +43,20 @@ impl Default for MeasureOptions {
 /// An aim in samples, at points that have responses.
 #[derive(Clone, Debug)]
 pub(crate) struct Resolved {
-    /// The points asked for, or the nearest ones whose responses are stored.
+    /// The points requested or, with sampled responses, the nearest stored ones.
     pub points: Vec<Point>,
-    /// Focal sample T.
+    /// Sample of the focal instant T.
     pub instant: usize,
     /// Samples over which the motion at the aim is evaluated.
     pub span: Range<usize>,
-    /// Whether the field is known over all of [0, 2T], or of the last full period.
+    /// Whether the field is known over the whole time span: [0, 2T] for a single pulse, the last full period
+    /// of a repeated drive.
     pub complete: bool,
 }
 
 impl Resolved {
-    /// The span of a single pulse is [0, 2T] in samples, cut where responses end; that of a repeated drive
-    /// its last full period.
+    /// Finds points, focal sample and time span of an aim. The span of a single pulse is [0, 2T] in samples,
+    /// shortened if the responses end earlier; that of a repeated drive is its last full period.
     pub fn of(aim: &Aim, field: &Field<'_>, period: Option<usize>) -> Result<Self, FieldError> {
         if aim.points.is_empty() {
             return Err(FieldError::Count {
@@ -89,7 +90,8 @@ pub(crate) fn last_period(field: &Field<'_>, period: usize) -> Range<usize> {
     end.saturating_sub(period)..end
 }
 
-/// Cuts spans (of samples) at each other's ends: every span is then a union of the segments.
+/// Splits spans of samples at the ends of all others into segments, so that every span is a union of
+/// segments.
 pub(crate) fn segments(spans: &[Range<usize>]) -> Vec<Range<usize>> {
     let mut ends: Vec<usize> = spans.iter().flat_map(|span| [span.start, span.end]).collect();
     ends.sort_unstable();

@@ -1,4 +1,4 @@
-//! The velocity of the sheet under contacts, as forces in proportion to the drive meet it.
+//! The velocity of the sheet under the contacts of actuators, from which the work of their forces follows.
 
 use crate::Field;
 use crate::modal::ModalField;
@@ -12,8 +12,9 @@ impl Field<'_> {
         self.drive
     }
 
-    /// Velocity (m/s, times the unit of the weights) under each of some contacts, which are points (m) and the weights of their velocities
-    /// in a sum, at each sample of the drive; `None` for sampled responses, which are known at their own points only.
+    /// Velocity under each contact at each sample of the drive, in m/s times the unit of the weights. A
+    /// contact is a list of points (m) with weights, and its velocity the weighted sum of theirs. `None` for
+    /// sampled responses, which are known at their stored points only.
     ///
     /// The drive acts as an impulse at each sample, and the velocity is the mean of those just before and just after it. An impulse does
     /// the work of its momentum times this mean on an oscillator of any mass, so that the work on the simulated sheet comes out exactly.
@@ -23,7 +24,7 @@ impl Field<'_> {
 }
 
 impl ModalField<'_> {
-    /// The velocities that [`Field::under`] gives.
+    /// The velocities under contacts that [`Field::under`] returns.
     pub(crate) fn velocities_under(&self, contacts: &[&[(Point, f64)]]) -> Vec<Vec<f64>> {
         let weights = self.summed(contacts);
         let channels = self.drive.channels();

@@ -8,9 +8,9 @@ pub enum FieldError {
     /// The channels of the drive are not the actuators of the responses, by name and order.
     #[error("channels: expected {expected}, found {found}")]
     Channels {
-        /// How many actuators, and their names.
+        /// Number of actuators, and their names.
         expected: String,
-        /// How many channels, and their names.
+        /// Number of channels of the drive, and their names.
         found: String,
     },
     /// The drive and the responses have different sample rates.
@@ -24,7 +24,7 @@ pub enum FieldError {
     /// A point lies outside the surface.
     #[error("{at} is outside the surface, nearest legal point {nearest}")]
     Outside {
-        /// The point asked for.
+        /// The point requested.
         at: Point,
         /// The nearest point of the surface.
         nearest: Point,
@@ -35,43 +35,43 @@ pub enum FieldError {
          nearest legal point {nearest}", distance * 1e3, reach * 1e3
     )]
     Unknown {
-        /// The point asked for.
+        /// The point requested.
         at: Point,
         /// The nearest point with responses.
         nearest: Point,
-        /// Distance between the two, in metres.
+        /// Distance from the requested point to the nearest one with responses, in metres.
         distance: f64,
         /// Largest distance allowed, in metres.
         reach: f64,
     },
-    /// An instant is asked for at which the field is not known.
+    /// A requested instant lies outside the time in which the field is known.
     #[error(
         "instant: expected {:.4} ms to {:.4} ms, {why}, found {:.4} ms", first * 1e3, last * 1e3, found * 1e3
     )]
     Instant {
-        /// The instant asked for, in seconds.
+        /// The instant requested, in seconds.
         found: f64,
         /// The first instant allowed, in seconds.
         first: f64,
         /// The last instant allowed, in seconds.
         last: f64,
-        /// What sets these bounds.
+        /// The reason for the first and last instant allowed.
         why: &'static str,
     },
     /// A number is out of its range.
     #[error(transparent)]
     Range(#[from] OutOfRange),
-    /// A count is out of its range: of samples, points or cells.
+    /// A count (of samples, points or cells, for example) is out of its range.
     #[error("{what}: expected {expected}, found {found}")]
     Count {
         /// What was counted.
         what: &'static str,
-        /// The legal counts.
+        /// The range of counts accepted, in words.
         expected: String,
-        /// How many there are.
+        /// The count found.
         found: usize,
     },
-    /// A drive or a set of responses could not be made: sizes, rate or samples do not fit.
+    /// A drive or a set of responses is invalid: its sizes, sample rate or samples are not accepted.
     #[error(transparent)]
     Core(#[from] CoreError),
 }

@@ -8,12 +8,12 @@ use std::ops::Range;
 use unripple_core::Observed;
 use unripple_linalg::{Mat, product};
 
-/// Values of weighed modes that are held at once, 128 MiB of them. With twice this value, twice the memory and half the
-/// passes; results stay the same.
+/// Number of values of filtered modes in memory at once, 128 MiB of them. With twice this value, twice the
+/// memory and half the passes; results stay the same.
 const HELD: usize = 1 << 25;
 
-/// What is felt of a modal field: the displacement of every mode is filtered over the whole passage, then those modes
-/// that matter are summed at every point.
+/// Threshold-weighted displacement of a modal field: the displacement of every mode is filtered over the
+/// whole passage, then those modes that matter are summed at every point.
 pub(crate) struct Feeling<'a> {
     field: &'a ModalField<'a>,
     passage: &'a Passage,
@@ -21,7 +21,7 @@ pub(crate) struct Feeling<'a> {
     reach: Vec<f64>,
 }
 
-/// Weighed modes over some samples.
+/// Threshold-weighted displacements of all modes over some samples.
 struct Block {
     /// One row of samples per mode.
     rows: Vec<Vec<f32>>,
@@ -30,7 +30,8 @@ struct Block {
 }
 
 impl<'a> Feeling<'a> {
-    /// Prepares what is felt of a field during a passage.
+    /// Prepares the computation of the threshold-weighted displacement of a field over the time span
+    /// `passage`.
     pub fn of(field: &'a ModalField<'a>, passage: &'a Passage) -> Self {
         let mut own = vec![Vec::new(); field.points().len().div_ceil(field.points_at_once())];
         field.for_chunks(&mut own, |weights, own| {
@@ -41,7 +42,7 @@ impl<'a> Feeling<'a> {
         Self { field, passage, reach: (0..field.modes()).map(most).collect() }
     }
 
-    /// What is felt at every point, in units of the threshold.
+    /// Computes the threshold-weighted displacement at every point, in units of the threshold.
     pub fn weighed(&self) -> Weighed {
         let span = &self.passage.span;
         let stride = (HELD / self.field.modes().max(1)).max(1);
@@ -84,7 +85,7 @@ impl<'a> Feeling<'a> {
         Weighed { tally, snapshots }
     }
 
-    /// Every mode weighed, over part of the span.
+    /// Threshold-weighted displacement of every mode, over part of the span.
     fn block(&self, part: &Range<usize>) -> Block {
         let Passage { taken, span, weighting, .. } = self.passage;
         let modes = self.field.modes();
@@ -107,7 +108,7 @@ impl<'a> Feeling<'a> {
         block
     }
 
-    /// Displacement of some modes over the samples taken, a row for each.
+    /// Displacement of some modes over the samples of the passage, one row per mode.
     fn traces(&self, modes: Range<usize>) -> Vec<Vec<f64>> {
         let taken = &self.passage.taken;
         let mut traces = vec![Vec::with_capacity(taken.len()); modes.len()];

@@ -7,33 +7,38 @@ use std::ops::Range;
 use unripple_core::Point;
 use unripple_dsp::{Threshold, Weighting};
 
-/// Error allowed in what is felt elsewhere, as a share of the level at the target: 80 dB below it. Ten times more would
-/// leave out modes that worst spots 60 dB down consist of.
+/// Error allowed in the threshold-weighted displacement elsewhere, as a share of the level at the target: 80
+/// dB below it. Ten times more would leave out modes that matter where the largest displacement elsewhere is
+/// 60 dB below the target's.
 const SLACK: f64 = 1e-4;
 
-/// Metrics of what is felt at one target, in dB; `None` where there is nothing to compare with, or no motion.
+/// Metrics of what is felt at one target, in dB; `None` without points outside the focal discs, or without
+/// motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Felt {
     /// Largest magnitude of the threshold-weighted displacement at the target during the time that is evaluated, in dB above the threshold of
     /// touch.
     pub level_db: Option<f64>,
-    /// The sample at which this magnitude is reached.
+    /// The sample at which the threshold-weighted displacement at the target is largest in magnitude.
     pub extreme: usize,
-    /// For how many samples the motion goes on as felt around `extreme`, as [`pulse::lasting`] counts them with pauses of up to
-    /// [`Threshold::INTEGRATION_S`]; `None` if it never pauses.
+    /// Duration of the felt motion around `extreme`, in samples, as [`pulse::lasting`] counts them with
+    /// pauses of up to [`Threshold::INTEGRATION_S`]; `None` if the motion never pauses.
     pub lasting: Option<usize>,
-    /// The level over the rms of what is felt at the outside points at the sample `extreme`.
+    /// The target's level over the rms threshold-weighted displacement of the outside points at the sample
+    /// `extreme`, in dB.
     pub contrast_db: Option<f64>,
-    /// The level over the rms of what is felt at the outside points during the span.
+    /// The target's level over the rms threshold-weighted displacement of the outside points during the
+    /// span, in dB.
     pub background_db: Option<f64>,
-    /// The level over the largest magnitude of what is felt at any outside point during the span.
+    /// The target's level over the largest threshold-weighted displacement of any outside point during the
+    /// span, in dB.
     pub worst_spot_db: Option<f64>,
 }
 
-/// What is felt of a field.
+/// Felt metrics at all aims, and the largest threshold-weighted displacement at every point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct AllFelt {
-    /// What is felt at each aim.
+    /// Metrics of what is felt at each aim.
     pub targets: Vec<Felt>,
     /// Largest magnitude of the threshold-weighted displacement at every point over all spans, in units of the threshold.
     pub peak: Vec<f32>,
@@ -54,7 +59,7 @@ pub(crate) fn felt(
     let mut all =
         AllFelt { targets: vec![Felt::default(); aims.len()], peak: vec![0.0; field.points().len()] };
     for (mut passage, members) in passages(field, aims, spans, period) {
-        // A drive of a single period is one that comes once: before it there is rest.
+        // A drive of a single period is not repeated: before it the surface is at rest.
         let again = period.is_some() && passage.span.start > 0;
         let own = own(field, members.iter().map(|i| &aims[*i]), &passage, again);
         passage.slack = SLACK * own.iter().map(|own| own.level).reduce(f64::min).unwrap_or(0.0);
@@ -68,7 +73,7 @@ pub(crate) fn felt(
     all
 }
 
-/// The stretches of time to be filtered, each with the indices of the aims that it serves.
+/// The time spans to be filtered, each with the indices of the aims that are evaluated from it.
 fn passages(
     field: &Field<'_>,
     aims: &[Resolved],
@@ -102,11 +107,11 @@ struct Own {
     extreme: usize,
     /// Magnitude of the threshold-weighted displacement at that sample, in units of the threshold.
     level: f64,
-    /// For how many samples the motion goes on as felt around that sample; `None` if it never pauses.
+    /// Duration of the felt motion around that sample, in samples; `None` if it never pauses.
     lasting: Option<usize>,
 }
 
-/// What is felt at each aim, of a motion that comes once or, with `again`, is repeated.
+/// What is felt at each aim, of a motion that occurs once or, with `again`, is repeated.
 fn own<'a>(
     field: &Field<'_>,
     aims: impl Iterator<Item = &'a Resolved>,

@@ -8,7 +8,8 @@ use crate::{FieldError, Grid, Readout, Trace};
 use unripple_core::{Conditions, Drive, Point, Responses, require};
 use unripple_dsp::Threshold;
 
-/// Values that snapshots or traces may hold in all: 800 MB of traces. Twice as many take twice the memory.
+/// Largest number of values of all snapshots or traces together: 800 MB of traces. Twice as many take twice
+/// the memory.
 const MOST_VALUES: usize = 100_000_000;
 
 /// What a drive does to a surface: velocity and displacement anywhere, at any time.
@@ -37,17 +38,17 @@ impl std::fmt::Debug for Field<'_> {
 /// The field at one instant, one value per point of the field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
-    /// Seconds from the drive's first sample.
+    /// Time of the snapshot, in seconds from the drive's first sample.
     pub instant: f64,
-    /// Velocity, in m/s.
+    /// Velocity at each point of the field, in m/s.
     pub velocity: Vec<f32>,
-    /// Displacement, in metres.
+    /// Displacement at each point of the field, in metres.
     pub displacement: Vec<f32>,
 }
 
 impl<'a> Field<'a> {
-    /// The field of `drive` through `responses`, on a grid of `cells` cells per shortest wavelength (8 where metrics
-    /// are computed), or on the library's own points for sampled responses.
+    /// The field of `drive` through `responses`, on a grid of `cells` cells per shortest wavelength (8 where
+    /// metrics are computed), or at the stored points of sampled responses.
     ///
     /// # Errors
     /// [`FieldError::Channels`] and [`FieldError::Rate`] if the drive is not for these responses,
@@ -57,7 +58,7 @@ impl<'a> Field<'a> {
         Ok(Self::on(&Readout::new(responses, cells)?, responses, drive))
     }
 
-    /// The field of a drive that is for these responses, which are those of the readout.
+    /// The field of a drive that has been checked against these responses, on the points of their readout.
     fn on(readout: &Readout<'_>, responses: &'a Responses, drive: &'a Drive) -> Self {
         let source: Box<dyn Source + 'a> = match responses {
             Responses::Modal(modal) => Box::new(ModalField::new(modal, drive, readout.kept.clone())),
@@ -75,12 +76,13 @@ impl<'a> Field<'a> {
         self
     }
 
-    /// The points (m) that snapshots and maps have values for.
+    /// The points (m) for which snapshots and maps have values.
     pub fn points(&self) -> &[Point] {
         self.source.points()
     }
 
-    /// The grid of [`Field::points`]; `None` for sampled responses, which have points of their own.
+    /// The grid whose cell centres are [`Field::points`]; `None` for sampled responses, whose points are
+    /// those stored.
     pub fn grid(&self) -> Option<&Grid> {
         self.grid.as_ref()
     }
@@ -90,7 +92,7 @@ impl<'a> Field<'a> {
         self.drive.rate()
     }
 
-    /// Number of samples from the drive's first for which the field is known.
+    /// Number of samples, counted from the drive's first, for which the field is known.
     pub fn known(&self) -> usize {
         self.source.known()
     }
@@ -158,7 +160,7 @@ impl<'a> Readout<'a> {
     }
 }
 
-/// Refuses more values than memory is to hold.
+/// Refuses more values than may be held in memory.
 pub(crate) fn bounded(what: &'static str, found: usize) -> Result<(), FieldError> {
     if found <= MOST_VALUES {
         return Ok(());
@@ -166,7 +168,7 @@ pub(crate) fn bounded(what: &'static str, found: usize) -> Result<(), FieldError
     Err(FieldError::Count { what, expected: format!("at most {MOST_VALUES}"), found })
 }
 
-/// Refuses a drive that is not for these responses.
+/// Checks that a drive has the channels and the sample rate of these responses.
 fn check(responses: &Responses, drive: &Drive) -> Result<(), FieldError> {
     let names: Vec<&str> = responses.ports().iter().map(|port| port.name.as_str()).collect();
     let rate = responses.conditions().rate;
@@ -174,7 +176,8 @@ fn check(responses: &Responses, drive: &Drive) -> Result<(), FieldError> {
     fits(&names, rate, drive)
 }
 
-/// Refuses a drive that is not for actuators of these names, in their order, at a rate in samples per second; and one without samples.
+/// Checks that a drive has samples, one channel for each of these actuators in this order, and the sample
+/// rate `rate` (samples per second).
 ///
 /// # Errors
 /// [`FieldError::Channels`], [`FieldError::Rate`] and [`FieldError::Count`].
@@ -187,7 +190,7 @@ pub fn fits(actuators: &[&str], rate: f64, drive: &Drive) -> Result<(), FieldErr
     if actuators != found {
         return Err(FieldError::Channels { expected: list(actuators.to_vec()), found: list(found) });
     }
-    // The same rate, but for what rounding in files leaves.
+    // Equal rates, but for rounding in files.
     if (drive.rate() / rate - 1.0).abs() > 1e-9 {
         return Err(FieldError::Rate { expected: rate, found: drive.rate() });
     }

@@ -13,17 +13,18 @@ pub struct Measured {
     pub drive: DriveFigures,
     /// Shortest wavelength of the band, in metres.
     pub lambda_min_m: f64,
-    /// Radius around every target that does not count as outside, (4/3) λ_min, in metres.
+    /// Radius of the focal disc around every target point, (4/3) λ_min, in metres; only points beyond all
+    /// discs count as outside.
     pub focal_radius_m: f64,
     /// Whether the points outside the focal discs are those of a regular grid or those of a library of responses.
     pub taken_on: TakenOn,
-    /// How many points lie outside every target's disc.
+    /// Number of evaluated points that lie outside every target's focal disc.
     pub outside_points: usize,
-    /// Number of outside points over that of all points, from 0 to 1; on a grid, the share of the surface over which
-    /// ratios are taken.
+    /// Share, from 0 to 1, of the evaluated points that lie outside every focal disc; on a grid, the share
+    /// of the surface over which ratios are taken.
     pub outside_share: f64,
-    /// The highest level felt at any outside point over all time spans, in dB above the threshold; `None` without outside
-    /// points, or where none of them moves.
+    /// The highest felt level at any point outside the focal discs over all time spans evaluated, in dB
+    /// above the threshold of touch; `None` without such points, or if none of them moves.
     pub felt_outside_db: Option<f64>,
     /// Maps and snapshots of the field; not part of the report.
     #[serde(skip)]
@@ -48,94 +49,111 @@ pub enum TakenOn {
 /// of magnitudes; they are `None` without outside points, or where none of them moves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TargetFigures {
-    /// The point asked for, or the centroid of the set, in metres.
+    /// The point requested, or the centroid of the set of points requested, in metres.
     pub at_m: [f64; 2],
     /// Number of points of the target.
     pub points: usize,
-    /// Mean distance from the points asked for to those at which the motion was evaluated, in metres; 0 unless the
-    /// responses are a library.
+    /// Mean distance from the points requested to those at which the motion was evaluated, in metres; 0
+    /// unless the responses are sampled.
     pub misplaced_m: f64,
     /// Focal instant T, in seconds.
     pub instant_s: f64,
-    /// First and last instant of the span, in seconds.
+    /// First and last instant of the time span evaluated, in seconds.
     pub span_s: [f64; 2],
-    /// Whether the field is known over the whole span: responses of a library may end earlier.
+    /// Whether the field is known over the whole time span evaluated: sampled responses may end earlier.
     pub span_complete: bool,
-    /// Velocity at the target at T, in m/s; contrasts and worst spot in velocity are ratios of its magnitude.
+    /// Velocity at the target at the focal instant T, in m/s; contrasts and worst spot in velocity are
+    /// ratios of its magnitude.
     pub peak_velocity_m_s: f64,
-    /// Instant at which the magnitude of the velocity at the target is largest, in seconds.
+    /// Instant at which the magnitude of the velocity at the target is largest during the time span
+    /// evaluated, in seconds.
     pub peak_time_s: f64,
-    /// Contrast: `peak_velocity_m_s` over the rms velocity of the outside points at T.
+    /// Contrast: `peak_velocity_m_s` over the rms velocity of the points outside the focal discs, at the
+    /// focal instant T.
     pub contrast: Option<f64>,
-    /// `peak_velocity_m_s` over the rms velocity of the outside points during the span.
+    /// `peak_velocity_m_s` over the rms velocity of the points outside the focal discs during the time span
+    /// evaluated.
     pub background_contrast: Option<f64>,
-    /// `peak_velocity_m_s` over the largest velocity of any outside point during the span.
+    /// `peak_velocity_m_s` over the largest velocity of any point outside the focal discs during the time
+    /// span evaluated.
     pub worst_spot: Option<f64>,
-    /// Point at which that largest velocity outside occurs, in metres.
+    /// Point at which the largest velocity outside the focal discs occurs, in metres.
     pub worst_spot_at_m: Option<[f64; 2]>,
-    /// Instant at which that largest velocity outside occurs, in seconds.
+    /// Instant at which the largest velocity outside the focal discs occurs, in seconds.
     pub worst_spot_time_s: Option<f64>,
-    /// Share of the energy of the velocity at the target during the span that lies above 1 kHz
-    /// ([`Threshold::MEASURED_TO_HZ`](crate::Threshold::MEASURED_TO_HZ)), from 0 to 1; 0 without motion.
+    /// Share of the energy of the velocity at the target during the time span evaluated that lies above 1
+    /// kHz ([`Threshold::MEASURED_TO_HZ`](crate::Threshold::MEASURED_TO_HZ)), from 0 to 1; 0 without motion.
     pub share_above_1khz: f64,
-    /// The same share at the point of the largest velocity outside.
+    /// Share of the energy of the velocity above 1 kHz, from 0 to 1, at the point of the largest velocity
+    /// outside the focal discs.
     pub worst_spot_share_above_1khz: Option<f64>,
-    /// Full width at half maximum of the velocity around the target at T, in metres.
+    /// Full width at half maximum of the velocity around the target at the focal instant T, in metres.
     pub spot_diameter_m: Option<f64>,
-    /// Area around the target in which the velocity at T is above half that at the target, in square metres; of a library that of a circle
-    /// of `spot_diameter_m`.
+    /// Area around the target in which the velocity at the focal instant T is above half that at the target,
+    /// in square metres; for sampled responses, the area of a circle with the diameter `spot_diameter_m`.
     pub spot_area_m2: Option<f64>,
-    /// Focus localisation error: distance from the target to the nearest maximum of the magnitude of the velocity at T, in metres; `None`
-    /// on a library.
+    /// Focus localisation error: distance from the target to the nearest maximum of the magnitude of the
+    /// velocity at the focal instant T, in metres; `None` for sampled responses.
     pub focus_offset_m: Option<f64>,
-    /// Full width at half maximum of the velocity at the target in time, around T, in seconds.
+    /// Full width at half maximum, in time, of the velocity at the target around the focal instant T, in
+    /// seconds.
     pub pulse_duration_s: Option<f64>,
-    /// Displacement at the target when its magnitude is largest within the span, in metres.
+    /// Displacement at the target when its magnitude is largest within the time span evaluated, in metres.
     pub peak_displacement_m: f64,
-    /// Instant of `peak_displacement_m`, in seconds: the ratios and widths in displacement are taken at it.
+    /// Instant of `peak_displacement_m`, in seconds, at which the ratios and widths in displacement are
+    /// evaluated.
     pub displacement_peak_time_s: f64,
-    /// `peak_displacement_m` over the rms displacement of the outside points at that instant.
+    /// `peak_displacement_m` over the rms displacement of the points outside the focal discs, at
+    /// `displacement_peak_time_s`.
     pub displacement_contrast: Option<f64>,
-    /// `peak_displacement_m` over the rms displacement of the outside points during the span.
+    /// `peak_displacement_m` over the rms displacement of the points outside the focal discs during the time
+    /// span evaluated.
     pub displacement_background_contrast: Option<f64>,
-    /// `peak_displacement_m` over the largest displacement of any outside point during the span.
+    /// `peak_displacement_m` over the largest displacement of any point outside the focal discs during the
+    /// time span evaluated.
     pub displacement_worst_spot: Option<f64>,
-    /// Full width at half maximum of the displacement around the target at that instant, in metres.
+    /// Full width at half maximum of the displacement around the target at `displacement_peak_time_s`, in
+    /// metres.
     pub displacement_spot_diameter_m: Option<f64>,
-    /// Area around the target in which the displacement at that instant is above half that at the target, in square metres.
+    /// Area around the target in which the displacement at `displacement_peak_time_s` is above half that at
+    /// the target, in square metres.
     pub displacement_spot_area_m2: Option<f64>,
-    /// Full width at half maximum of the displacement at the target in time, around that instant, in seconds.
+    /// Full width at half maximum, in time, of the displacement at the target around
+    /// `displacement_peak_time_s`, in seconds.
     pub displacement_pulse_duration_s: Option<f64>,
-    /// Level felt: the largest magnitude of the weighted displacement at the target within the span, in dB above the
-    /// threshold; `None` without motion. The weighted displacement is the displacement filtered by 1/threshold(f) with
-    /// zero phase, in units of the threshold. The ratios below are those of this magnitude to what is felt outside, in
-    /// dB; higher is better.
+    /// Felt level: the largest magnitude of the threshold-weighted displacement at the target within the
+    /// time span evaluated, in dB above the threshold of touch; `None` without motion. The
+    /// threshold-weighted displacement is the displacement filtered by 1/threshold(f) with zero phase, in
+    /// units of the threshold. The ratios below are those of this magnitude to what is felt outside, in dB;
+    /// higher is better.
     pub felt_level_db: Option<f64>,
-    /// Instant of `felt_level_db`, in seconds.
+    /// Instant at which the level `felt_level_db` is reached, in seconds.
     pub felt_peak_time_s: f64,
-    /// How long the motion goes on as felt, in seconds: around `felt_peak_time_s`, from the first to the last instant at which the
-    /// weighted displacement has at least half of its largest magnitude, without pauses longer than
-    /// [`Threshold::INTEGRATION_S`](crate::Threshold::INTEGRATION_S). `None` if it is repeated without such a pause, and without
-    /// motion.
+    /// Duration of the felt motion, in seconds: around `felt_peak_time_s`, from the first to the last
+    /// instant at which the threshold-weighted displacement has at least half of its largest magnitude,
+    /// without pauses longer than [`Threshold::INTEGRATION_S`](crate::Threshold::INTEGRATION_S). `None`
+    /// without motion, and if the motion is repeated without such a pause.
     pub felt_duration_s: Option<f64>,
-    /// The magnitude of `felt_level_db` over the rms weighted displacement of the outside points at `felt_peak_time_s`,
-    /// in dB.
+    /// Threshold-weighted displacement at the target over the rms of that of the points outside the focal
+    /// discs, both at `felt_peak_time_s`, in dB.
     pub felt_contrast_db: Option<f64>,
-    /// The magnitude of `felt_level_db` over the rms weighted displacement of the outside points during the span, in
-    /// dB.
+    /// Largest threshold-weighted displacement at the target over the rms of that of the points outside the
+    /// focal discs during the time span evaluated, in dB.
     pub felt_background_db: Option<f64>,
-    /// The magnitude of `felt_level_db` over the largest weighted displacement of any outside point during the span, in
-    /// dB.
+    /// Largest threshold-weighted displacement at the target over the largest one at any point outside the
+    /// focal discs during the time span evaluated, in dB.
     pub felt_worst_spot_db: Option<f64>,
-    /// Least and greatest velocity over a set of points at T, in m/s; `None` for one point.
+    /// Least and greatest velocity over the target's points at the focal instant T, in m/s; `None` for a
+    /// single point.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub velocity_range_m_s: Option<[f64; 2]>,
-    /// Least and greatest displacement over a set of points at `displacement_peak_time_s`, in metres; `None` for one point.
+    /// Least and greatest displacement over the target's points at `displacement_peak_time_s`, in metres;
+    /// `None` for a single point.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub displacement_range_m: Option<[f64; 2]>,
 }
 
-/// Metrics of the drive: of all of it, or of its last full period if it is repeated.
+/// Metrics of the drive signals: of the whole drive, or of its last full period if it is repeated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DriveFigures {
     /// Largest magnitude over all channels, in the drive's unit.
@@ -146,26 +164,27 @@ pub struct DriveFigures {
     pub energy: f64,
     /// Share of the energy above the band of the responses, from 0 to 1.
     pub share_above_band: f64,
-    /// Length of the drive or of its period, in seconds.
+    /// Length of the drive, or of its period if it is repeated, in seconds.
     pub duration_s: f64,
 }
 
 /// Maps and snapshots of the field: one value per point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Maps {
-    /// The points that the values belong to, in metres.
+    /// The points to which the values belong, in metres.
     pub points: Vec<Point>,
     /// The grid of the points; `None` for the points of a library.
     pub grid: Option<Grid>,
-    /// Whether each point is outside every focal disc.
+    /// Whether each point lies outside every target's focal disc.
     pub outside: Vec<bool>,
     /// Largest magnitude of the velocity at each point over all time spans, in m/s.
     pub peak_velocity: Vec<f32>,
     /// Largest magnitude of the displacement at each point over all time spans, in metres.
     pub peak_displacement: Vec<f32>,
-    /// Largest magnitude of the weighted displacement at each point over all time spans, in units of the threshold: 1 is just felt.
+    /// Largest magnitude of the threshold-weighted displacement at each point over all time spans, in units
+    /// of the threshold: 1 is just felt.
     pub felt_peak: Vec<f32>,
-    /// The field at each target's focal instant T.
+    /// The field at the focal instant T of each target.
     pub at_peak: Vec<Snapshot>,
     /// The field at the instant of each target's largest displacement.
     pub at_displacement_peak: Vec<Snapshot>,

@@ -3,7 +3,8 @@
 use crate::FieldError;
 use unripple_core::{Conditions, Point, require};
 
-/// Largest number of cells of a grid: each is read at every sample. With twice this value, the largest fields take twice the time.
+/// Largest number of cells of a grid: the field in each is evaluated at every sample. With twice this value,
+/// the largest fields take twice the time.
 const MOST_CELLS: f64 = 4e6;
 
 /// A grid of rectangular cells over the bounding box of a surface; fields are evaluated at the centres of the cells
@@ -23,7 +24,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// `ceil(cells · L / λ_min)` cells along each side L of the outline's bounding box.
+    /// A grid of `ceil(cells · L / λ_min)` cells along each side L of the outline's bounding box.
     ///
     /// # Errors
     /// [`FieldError::Range`] if `cells` or the conditions' lengths are not positive, or make too many cells.
@@ -66,8 +67,8 @@ impl Grid {
         self.inside.iter().map(|cell| self.centre(*cell)).collect()
     }
 
-    /// Values on all cells, `[row · columns + column]` from the bottom, from one value per point of the grid; NaN
-    /// outside the outline.
+    /// Distributes one value per point of the grid to all cells, `[row · columns + column]` from the bottom;
+    /// cells outside the outline are NaN.
     pub fn spread<T: Copy + Into<f64>>(&self, values: &[T]) -> Vec<f64> {
         let mut cells = vec![f64::NAN; self.columns * self.rows];
         self.inside.iter().zip(values).for_each(|(cell, value)| cells[*cell] = (*value).into());

@@ -1,4 +1,4 @@
-//! The field at the focal instant alone: contrast, where no other metric is asked for.
+//! Contrast from the field at the focal instant alone, for callers that need no other metric.
 
 use crate::{Field, FieldError};
 use unripple_core::Point;
@@ -8,7 +8,8 @@ use unripple_core::Point;
 pub struct Instant {
     /// Velocity at the target, the mean over its points, in m/s.
     pub velocity: f64,
-    /// Root mean square of the velocity over the field's points outside the focal discs, in m/s; 0 without any.
+    /// Root mean square of the velocity over the field's points outside the focal discs, in m/s; 0 without
+    /// such points.
     pub rms_outside: f64,
 }
 
@@ -21,9 +22,9 @@ impl Instant {
 }
 
 impl Field<'_> {
-    /// Velocity of the field at an instant (s), rounded to a sample: at the points of a target (m), as their mean, and
-    /// outside the focal discs. Outside is what lies farther than the focal radius from each point of `focused`: the
-    /// points of this target and of all others that are in focus at the same time.
+    /// Mean velocity of a target's points (m) and rms velocity outside the focal discs, at an instant (s)
+    /// that is rounded to a sample. Points outside are farther than the focal radius from each point of
+    /// `focused`: the points of this target and of all others that are in focus at the same time.
     ///
     /// # Errors
     /// Those of [`Field::traces`] and [`Field::snapshots`].

@@ -32,8 +32,8 @@ pub fn measure(
 }
 
 impl Field<'_> {
-    /// All metrics of this field at `aims`, as [`measure`](crate::measure()) gives them; `period` (s) as in
-    /// [`MeasureOptions`].
+    /// Computes all metrics of this field at `aims`, those of [`measure`](crate::measure()); `period` (s) is
+    /// that of [`MeasureOptions`].
     ///
     /// # Errors
     /// [`FieldError::Outside`], [`FieldError::Unknown`], [`FieldError::Instant`] and [`FieldError::Count`] for aims,
@@ -105,7 +105,8 @@ pub(crate) fn spans(aims: &[Resolved], field: &Field<'_>, period: Option<usize>)
     }]
 }
 
-/// For each aim, the first sample of its trace and the trace itself: its span, and half a period beyond it.
+/// For each aim, the first sample of its trace and the trace itself, which covers the aim's span and half a
+/// period before and after it.
 pub(crate) fn target_traces(
     aims: &[Resolved],
     field: &Field<'_>,
@@ -123,18 +124,20 @@ pub(crate) fn target_traces(
 /// Levels, instants and widths of the motion at a target.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Peaks {
-    /// Velocity at T, and displacement when its magnitude is largest.
+    /// Velocity at the focal instant T (m/s), and displacement at the sample where its magnitude is largest
+    /// (m).
     pub levels: [f64; 2],
-    /// Sample at which the velocity is largest.
+    /// Sample at which the magnitude of the velocity is largest.
     fastest: usize,
-    /// Sample at which the displacement is largest.
+    /// Sample at which the magnitude of the displacement is largest.
     pub extreme: usize,
     /// Full widths at half maximum in time, of velocity and displacement, in samples.
     widths: [Option<f64>; 2],
 }
 
 impl Peaks {
-    /// Reads a trace whose first sample is `first`.
+    /// Finds the peaks of the motion at an aim from its trace, whose first sample is the drive's sample
+    /// `first`.
     pub fn of(aim: &Resolved, first: usize, trace: &Trace) -> Self {
         let largest = |values: &[f64]| {
             let span = aim.span.start - first..aim.span.end - first;
@@ -153,7 +156,7 @@ impl Peaks {
     }
 }
 
-/// Which points are farther than `radius` from every point of every aim.
+/// Whether each point is farther than `radius` from every point of every aim.
 fn outside(points: &[Point], aims: &[Resolved], radius: f64) -> Vec<bool> {
     let centres: Vec<Point> = aims.iter().flat_map(|aim| aim.points.iter().copied()).collect();
     points.par_iter().map(|p| centres.iter().all(|centre| centre.distance(*p) > radius)).collect()
@@ -186,7 +189,7 @@ struct Judge<'a> {
     felt: &'a AllFelt,
 }
 
-/// Motion outside the focal discs that a level is compared with.
+/// Motion outside the focal discs with which the level at a target is compared.
 struct Surroundings {
     /// Rms velocity (m/s) or displacement (m) over outside points at the instant of the level.
     then: f64,
@@ -261,7 +264,8 @@ impl Judge<'_> {
         }
     }
 
-    /// Motion that the level at the target with this index is compared with, in velocity (0) or displacement (1).
+    /// Motion outside with which the level at the target of this index is compared, in velocity (0) or
+    /// displacement (1).
     fn surroundings(&self, index: usize, quantity: usize) -> Surroundings {
         let span = &self.resolved[index].span;
         let snapshot = &self.survey.snapshots[index + quantity * self.aims.len()][quantity];
@@ -294,7 +298,8 @@ impl Judge<'_> {
         Worst { at: [at.x, at.y], sample, fast: fast(velocity, self.field.rate()) }
     }
 
-    /// Least and greatest velocity at T and displacement at its extreme over a set of points.
+    /// Least and greatest velocity at T, and displacement at the instant of its largest magnitude, over a
+    /// target's points.
     fn ranges(&self, index: usize) -> Option<[[f64; 2]; 2]> {
         let (resolved, peaks) = (&self.resolved[index], &self.peaks[index]);
         if resolved.points.len() < 2 {
@@ -310,7 +315,8 @@ impl Judge<'_> {
     }
 }
 
-/// Share of the energy of a velocity at `rate` samples per second that lies above what the threshold of touch was measured to.
+/// Share of the energy of a velocity (`rate` samples per second) above the highest frequency at which the
+/// threshold of touch was measured.
 fn fast(velocity: &[f64], rate: f64) -> f64 {
     unripple_dsp::share_above(&[velocity.to_vec()], rate, Threshold::MEASURED_TO_HZ)
 }
@@ -319,7 +325,7 @@ fn ratio(level: f64, surroundings: f64) -> Option<f64> {
     (surroundings > 0.0).then(|| level.abs() / surroundings)
 }
 
-/// Metrics of the drive: of all of it, or of the last `period` samples.
+/// Metrics of the whole drive, or of its last `period` samples.
 fn drive_figures(field: &Field<'_>, period: Option<usize>) -> DriveFigures {
     let drive = field.drive;
     let first = period.map_or(0, |period| last_period(field, period).start);
@@ -335,13 +341,13 @@ fn drive_figures(field: &Field<'_>, period: Option<usize>) -> DriveFigures {
     }
 }
 
-/// The highest level outside, in dB above the threshold.
+/// The highest felt level at the points outside, in dB above the threshold.
 fn loudest(felt: &[f32], outside: &[bool]) -> Option<f64> {
     let levels = felt.iter().zip(outside).filter(|(_, out)| **out).map(|(level, _)| f64::from(*level));
     Some(levels.fold(0.0, f64::max)).filter(|level| *level > 0.0).map(decibels)
 }
 
-/// Maps and snapshots from a survey.
+/// Maps and snapshots of the field from the values of a survey.
 fn maps(
     field: &Field<'_>,
     survey: Survey,

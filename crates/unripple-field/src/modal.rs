@@ -1,4 +1,4 @@
-//! The field of a modal system, read out in blocks.
+//! The field of a modal system, evaluated in blocks of points and samples.
 
 use crate::motion::Motion;
 use crate::readout::Kept;
@@ -14,15 +14,16 @@ const POINTS: usize = 256;
 /// Samples of a block of the field; see [`POINTS`].
 const SAMPLES: usize = 128;
 
-/// Values of states (modes x samples) that are held at once, up to 32 MiB of them. Twice as many take twice the memory.
+/// Number of values of modal states (modes x samples) in memory at once, up to 32 MiB of them. Twice as many
+/// take twice the memory.
 pub(crate) const STATES: usize = 1 << 22;
 
-/// Most readout weights of a block, 128 MiB of them in each thread: blocks of fewer points for more than 65 536 modes. With twice this
-/// value, twice the memory.
+/// Largest number of readout weights of a block, 128 MiB of them in each thread: with more than 65 536
+/// modes, blocks have fewer points. With twice this value, twice the memory.
 const READ: usize = 1 << 24;
 
-/// Most readout weights that are kept between surveys, half a GiB of them; if there are more, they are computed again
-/// for each block of time. Twice as many take a GiB.
+/// Largest number of readout weights that are cached between surveys, half a GiB of them; if there are more,
+/// they are computed again for each block of time. Twice as many take a GiB.
 const KEPT: usize = 1 << 27;
 
 /// The field of a modal system: states of all modes over time, read out in blocks and never stored as a whole.
@@ -43,7 +44,7 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// One of the two, a value per mode.
+    /// Velocity or displacement, one value per mode.
     pub(crate) fn of(&self, quantity: Quantity) -> &[f64] {
         match quantity {
             Quantity::Velocity => &self.velocity,
@@ -53,7 +54,7 @@ impl State {
 }
 
 impl<'a> ModalField<'a> {
-    /// The field at points (m) of responses under a drive.
+    /// The field of modal responses under a drive, at the points (m) of `kept`.
     pub fn new(responses: &'a ModalResponses, drive: &'a Drive, kept: Arc<Kept>) -> Self {
         Self { responses, drive, kept }
     }
@@ -67,12 +68,12 @@ impl<'a> ModalField<'a> {
         self.responses.poles.len()
     }
 
-    /// Number of samples whose states are held at once.
+    /// Number of samples whose modal states are in memory at once.
     pub(crate) fn samples_at_once(&self) -> usize {
         (STATES / self.modes().max(1)).max(SAMPLES)
     }
 
-    /// Number of points whose weights are read at once.
+    /// Number of points whose readout weights are in memory at once.
     pub(crate) fn points_at_once(&self) -> usize {
         (READ / self.modes().max(1)).clamp(1, POINTS)
     }
@@ -83,8 +84,8 @@ impl<'a> ModalField<'a> {
         Mat::from_fn(exact.nrows(), exact.ncols(), |p, m| exact[(p, m)] as f32)
     }
 
-    /// Applies `work` to the weights (points x modes) of every chunk of points and what belongs to it, in
-    /// parallel.
+    /// Applies `work` to the weights (points x modes) of every chunk of points and the chunk's item of
+    /// `owned`, in parallel.
     pub(crate) fn for_chunks<T: Send>(&self, owned: &mut [T], work: impl Fn(&Mat<f32>, &mut T) + Sync) {
         if self.points().len() * self.modes() > KEPT {
             let chunks = self.points().par_chunks(self.points_at_once());
@@ -97,7 +98,7 @@ impl<'a> ModalField<'a> {
         }
     }
 
-    /// States at instants, in the order given.
+    /// Modal states at these instants, in the same order.
     pub(crate) fn states(&self, instants: &[usize]) -> Vec<State> {
         let mut order: Vec<usize> = (0..instants.len()).collect();
         order.sort_by_key(|&i| instants[i]);
@@ -126,7 +127,8 @@ impl<'a> ModalField<'a> {
     }
 }
 
-/// Adds the field of a block of states (modes x samples), read by weights (points x modes), to a tally.
+/// Adds the field weights · states, of readout weights (points x modes) and a block of states (modes x
+/// samples), to a tally.
 pub(crate) fn add_to(tally: &mut Tally, weights: MatRef<'_, f32>, states: MatRef<'_, f32>) {
     let mut field = Mat::<f32>::zeros(weights.nrows(), SAMPLES.min(states.ncols()));
     let mut squares = vec![0.0_f32; weights.nrows()];

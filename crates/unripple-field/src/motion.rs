@@ -25,7 +25,7 @@ pub(crate) struct Motion<'a> {
 }
 
 impl<'a> Motion<'a> {
-    /// Everything at rest before sample 0.
+    /// The motion of all modes, at rest before sample 0.
     pub fn new(responses: &ModalResponses, drive: &'a Drive) -> Self {
         Self::of(responses, drive, 0..responses.poles.len())
     }
@@ -107,7 +107,7 @@ impl<'a> Motion<'a> {
         momenta
     }
 
-    /// Lets all modes ring freely over one sample.
+    /// Advances the free vibration of all modes by one sample.
     fn ring(&mut self) {
         let [a, b, c, d] = &self.step;
         let modes = self.velocity.iter_mut().zip(&mut self.displacement);

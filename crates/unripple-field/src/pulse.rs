@@ -1,4 +1,4 @@
-//! Width of a pulse in time at half maximum, and how long a motion goes on.
+//! Width of a pulse in time at half maximum, and duration of a motion with pauses.
 
 /// Full width at half maximum of a signal around the sample `centre`, in samples.
 ///
@@ -26,9 +26,10 @@ fn half(signal: impl Iterator<Item = f64>) -> Option<f64> {
     None
 }
 
-/// For how many samples a signal goes on around the sample `centre`: from the first to the last at which its magnitude is at least half
-/// that at `centre`, with no more than `pause` samples from one of these to the next. With `again`, the signal is a period that is
-/// repeated without end. `None` if it never pauses, or is zero there.
+/// Duration of a signal around the sample `centre`, in samples: from the first to the last sample at which
+/// its magnitude is at least half that at `centre`, with no more than `pause` samples from one of these to
+/// the next. With `again`, the signal is a period that is repeated without end. `None` if a repeated signal
+/// never pauses, or if the signal is zero at `centre`.
 pub(crate) fn lasting(signal: &[f64], centre: usize, pause: usize, again: bool) -> Option<usize> {
     let enough = 0.5 * signal.get(centre)?.abs();
     if enough == 0.0 {

@@ -9,18 +9,19 @@ use crate::{aim::Resolved, aim::segments, measure::whole_period};
 pub struct Reach {
     /// Largest displacement at any point of the grid or library and at the targets, in metres.
     pub displacement: f64,
-    /// Largest slope and curvature; `None` for sampled responses, which are on no grid.
+    /// Largest slope and curvature of the surface; `None` for sampled responses, whose points form no grid.
     pub steepness: Option<Steepness>,
 }
 
 impl Reach {
-    /// The largest values of a field whose metrics are known.
+    /// Largest displacement, slope and curvature of a field, from its metrics.
     pub fn of(measured: &Measured) -> Self {
         Self::new(&measured.maps, measured.targets.iter().map(|target| target.peak_displacement_m))
     }
 
-    /// Slope and curvature are known at the instants of the targets' largest displacements only. If the surface has a
-    /// larger displacement at another time, they are raised in proportion to it.
+    /// Largest values from maps and the targets' largest displacements. Slope and curvature are known at the
+    /// instants of these only; if the surface has a larger displacement at another time, they are multiplied
+    /// by the ratio of the two.
     fn new(maps: &Maps, levels: impl Iterator<Item = f64>) -> Self {
         let largest = |values: &[f32]| values.iter().fold(0.0, |m: f64, u| m.max(f64::from(u.abs())));
         let displacement = levels.fold(largest(&maps.peak_displacement), |m, u| m.max(u.abs()));
@@ -37,9 +38,9 @@ impl Reach {
 }
 
 impl Field<'_> {
-    /// Largest displacement, slope and curvature of this field, over the time that [`Field::measure`] evaluates;
-    /// `period` (s) as in [`MeasureOptions`](crate::MeasureOptions). This takes a small part of the time that all
-    /// metrics take.
+    /// Computes the largest displacement, slope and curvature of this field, over the time span that
+    /// [`Field::measure`] evaluates; `period` (s) is that of [`MeasureOptions`](crate::MeasureOptions). This
+    /// is much quicker than computing all metrics.
     ///
     /// # Errors
     /// Those of [`Field::measure`].

@@ -1,4 +1,4 @@
-//! What is read from the field of a modal system: traces, surveys, felt levels, spots.
+//! Evaluation of the field of a modal system: traces, surveys, felt levels, focal spots.
 
 use crate::feeling::Feeling;
 use crate::modal::{ModalField, State, add_to};
@@ -110,7 +110,7 @@ impl Source for ModalField<'_> {
     }
 }
 
-/// States over the next `count` samples, modes x samples: velocity and displacement.
+/// Velocity and displacement of all modes over the next `count` samples, modes x samples each.
 fn states<T: Number>(
     motion: &mut Motion<'_>,
     count: usize,
@@ -132,7 +132,7 @@ fn states<T: Number>(
     both
 }
 
-/// From `[chunk][segment]` to one tally per segment over all points.
+/// Joins tallies `[chunk of points][segment]` into one tally per segment over all points.
 fn joined(chunks: Vec<Vec<[Tally; 2]>>, segments: usize) -> Vec<[Tally; 2]> {
     let mut whole = vec![<[Tally; 2]>::default(); segments];
     for chunk in chunks {

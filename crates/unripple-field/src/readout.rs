@@ -1,12 +1,13 @@
-//! The points on which fields are evaluated, with the weights of the modes there.
+//! The points at which fields are evaluated, with the weights of the modes there.
 
 use crate::{FieldError, Grid};
 use std::sync::{Arc, OnceLock};
 use unripple_core::{Point, Responses};
 use unripple_linalg::Mat;
 
-/// The points on which fields of some responses are evaluated: those of a [`Grid`], or those of a library. The weights
-/// of every mode at every point are computed once, for the fields of any number of drives.
+/// The points at which fields of some responses are evaluated: those of a [`Grid`], or the stored ones of
+/// sampled responses. The weights of every mode at every point are computed once, for the fields of any
+/// number of drives.
 ///
 /// ```
 /// use unripple_core::{Conditions, Drive, Outline, Point, Port, Responses, SampledResponses, Shape};
@@ -42,8 +43,8 @@ pub(crate) struct Kept {
 }
 
 impl<'a> Readout<'a> {
-    /// A grid of `cells` cells per shortest wavelength (8 where metrics are computed), or for sampled responses their
-    /// own points.
+    /// Points for evaluating fields: a grid of `cells` cells per shortest wavelength (metrics use 8), or the
+    /// stored points of sampled responses.
     ///
     /// # Errors
     /// [`FieldError::Range`] if the grid would have no or too many cells.

@@ -86,7 +86,8 @@ impl Source for SampledField<'_> {
         self.index(place).map(|stored| self.responses.points[stored])
     }
 
-    /// Responses of L samples determine the field until L samples after the drive begins.
+    /// Responses of L samples determine the field until L samples after the first non-zero sample of the
+    /// drive.
     fn known(&self) -> usize {
         let sounds = |i: &usize| self.drive.channels().iter().any(|channel| channel[*i] != 0.0);
         let begins = (0..self.drive.samples()).find(sounds).unwrap_or(self.drive.samples());
@@ -128,7 +129,7 @@ impl Source for SampledField<'_> {
         }
     }
 
-    /// Responses are taken to be at rest after their end.
+    /// The surface is assumed to be at rest after the end of the responses.
     fn weighed(&self, passage: &Passage) -> Weighed {
         let Passage { taken, span, instants, weighting, .. } = passage;
         let player = Player::plan(self, taken.clone());
@@ -164,11 +165,11 @@ impl Source for SampledField<'_> {
     }
 }
 
-/// A drive made ready to be convolved with the responses of many points, over one range of samples.
+/// A drive prepared for convolution with the responses of many points, over one range of samples.
 struct Player<'a> {
     responses: &'a SampledResponses,
     range: Range<usize>,
-    /// First sample of the drive that still matters.
+    /// First sample of the drive that affects the range.
     first: usize,
     plan: Convolver,
     /// Spectrum of each channel, divided by the rate.
@@ -178,7 +179,7 @@ struct Player<'a> {
 type Complex = unripple_dsp::Complex<f64>;
 
 impl<'a> Player<'a> {
-    /// Makes the drive ready for a range of samples.
+    /// Prepares the drive for the motion over a range of samples.
     fn plan(field: &SampledField<'a>, range: Range<usize>) -> Self {
         let length = field.responses.samples();
         let first = (range.start + 1).saturating_sub(length).min(field.drive.samples());

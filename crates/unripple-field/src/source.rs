@@ -6,7 +6,7 @@ use std::ops::Range;
 use unripple_core::Point;
 use unripple_dsp::Weighting;
 
-/// The quantity that is read: velocity or displacement.
+/// The quantity that is evaluated: velocity or displacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Quantity {
     /// Normal velocity, in m/s.
@@ -39,18 +39,19 @@ impl Trace {
 pub(crate) struct Tally {
     /// Largest magnitude of the quantity at each point: m/s, m, or units of the threshold of touch.
     pub peak: Vec<f32>,
-    /// Sum of squares over the samples.
+    /// Sum of squares of the quantity over the samples, at each point.
     pub squares: Vec<f64>,
 }
 
 impl Tally {
-    /// A tally of zeros at `points` points, a number.
+    /// A tally of zeros for a number `points` of points.
     pub fn zeros(points: usize) -> Self {
         Self { peak: vec![0.0; points], squares: vec![0.0; points] }
     }
 }
 
-/// The field over segments of time and at instants, at every one of its points; velocity and displacement.
+/// Velocity and displacement at every point of a field: tallies over segments of time, and values at
+/// instants.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Survey {
     /// Tallies of velocity and displacement, a pair per segment.
@@ -59,37 +60,38 @@ pub(crate) struct Survey {
     pub snapshots: Vec<[Vec<f32>; 2]>,
 }
 
-/// A stretch of time over which displacement is filtered by the threshold of touch.
+/// A time span over which displacement is filtered by the threshold of touch.
 #[derive(Clone, Debug)]
 pub(crate) struct Passage {
-    /// Samples that are filtered together; the weighting says what is assumed beyond them.
+    /// Range of samples that is filtered; `weighting` determines what is assumed before and after it.
     pub taken: Range<usize>,
-    /// The samples among them that are tallied.
+    /// Range of samples within `taken` over which peaks and squares are accumulated.
     pub span: Range<usize>,
-    /// The samples of the span at which snapshots are taken.
+    /// Samples within `span` at which snapshots are taken.
     pub instants: Vec<usize>,
-    /// 1/threshold, for as many samples as are taken.
+    /// Filter by 1/threshold(f), for signals of the length of `taken`.
     pub weighting: Weighting,
-    /// Error allowed anywhere, in units of the threshold.
+    /// Error allowed in the filtered displacement at any point and sample, in units of the threshold.
     pub slack: f64,
 }
 
-/// What is felt at every point of a field during a passage, in units of the threshold.
+/// Threshold-weighted displacement at every point of a field during a passage, in units of the threshold.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Weighed {
-    /// What is felt at every point over the span.
+    /// Peak and sum of squares of the threshold-weighted displacement at every point over the span.
     pub tally: Tally,
-    /// What is felt at every point, one list per instant.
+    /// Threshold-weighted displacement at every point, one list per instant.
     pub snapshots: Vec<Vec<f32>>,
 }
 
-/// The motion that a drive causes, from modal or sampled responses. Samples count from the drive's first.
+/// The motion that a drive causes, from modal or sampled responses. Samples are counted from the drive's
+/// first.
 pub(crate) trait Source: Send + Sync {
     /// The points (m) at which the field is evaluated.
     fn points(&self) -> &[Point];
 
-    /// The point at which the motion at `place` is evaluated, both in metres: itself, or the nearest one with
-    /// responses.
+    /// The point (m) at which the motion at `place` (m) is evaluated: `place` itself, or the nearest point
+    /// with responses.
     fn locate(&self, place: Point) -> Result<Point, FieldError>;
 
     /// Number of samples for which the field is known, from the drive's first.
@@ -102,10 +104,11 @@ pub(crate) trait Source: Send + Sync {
     /// every point.
     fn survey(&self, segments: &[Range<usize>], instants: &[usize]) -> Survey;
 
-    /// What is felt during a passage.
+    /// Computes the threshold-weighted displacement at all points during a passage.
     fn weighed(&self, passage: &Passage) -> Weighed;
 
-    /// The velocity under contacts at each sample of the drive, halfway through its impulse; `None` for sampled responses.
+    /// The velocity under contacts at each sample of the drive, as the mean of that before and after the
+    /// sample's impulse; `None` for sampled responses.
     fn under(&self, contacts: &[&[(Point, f64)]]) -> Option<Vec<Vec<f64>>>;
 
     /// The focal spot around a point at a sample, for each request.

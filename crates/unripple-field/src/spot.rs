@@ -1,4 +1,5 @@
-//! The focal spot: its size at half the value at the target, and how far its summit is from there.
+//! The focal spot: its size at half the value at the target, and the distance of its maximum from the
+//! target.
 
 use std::f64::consts::PI;
 use unripple_core::{Outline, Point};
@@ -7,8 +8,8 @@ use unripple_core::{Outline, Point};
 /// twice the readouts for a mean that hardly changes.
 const DIRECTIONS: usize = 16;
 
-/// Steps of the regula falsi that bring a crossing to well under a thousandth of the wavelength. With twice this value,
-/// digits that no figure shows.
+/// Number of steps of the regula falsi (false position), which locate a crossing to well under a thousandth
+/// of the wavelength. With twice this value, digits would be computed that no figure shows.
 const REFINEMENTS: usize = 3;
 
 /// Where a spot is measured.
@@ -16,7 +17,7 @@ const REFINEMENTS: usize = 3;
 pub(crate) struct Around<'a> {
     /// Centre of the spot, in metres.
     pub at: Point,
-    /// The region that holds the field.
+    /// Outline of the surface, outside which there is no field.
     pub outline: &'a Outline,
     /// Shortest wavelength of the field, in metres.
     pub wavelength: f64,
@@ -28,7 +29,7 @@ impl Around<'_> {
         Point::new(self.at.x + radius * cos, self.at.y + radius * sin)
     }
 
-    /// The largest radius up to `outer` that is inside, if `inner` is.
+    /// The largest radius up to `outer` that lies inside the outline, if `inner` does.
     fn within(&self, direction: usize, inner: f64, outer: f64) -> f64 {
         if self.outline.contains(self.place(direction, outer)) {
             return outer;
@@ -50,7 +51,7 @@ struct Ray {
     inner: (f64, f64),
     /// Radius at or below half, and its (negative) excess, once found.
     outer: Option<(f64, f64)>,
-    /// Whether the rim was reached above half.
+    /// Whether the rim of the surface was reached while the field was still above half.
     lost: bool,
 }
 
@@ -65,10 +66,11 @@ pub(crate) struct Spot {
     pub offset: Option<f64>,
 }
 
-/// Steps, over the wavelength, of the search for the summit: the first is smaller than a spot, and the last well below what a figure shows.
+/// Step sizes of the search for the maximum, relative to the wavelength: the first is smaller than a spot,
+/// and the last well below what a figure shows.
 const STEPS: [f64; 8] = [0.08, 0.04, 0.02, 0.01, 0.005, 0.0025, 0.001, 0.0005];
 
-/// Moves at one step of that search: as many as lead across a spot.
+/// Largest number of moves at each step size of the search for the maximum: enough to cross a spot.
 const MOVES: usize = 8;
 
 /// The focal spot of a field around a point: the mean over eight diameters, and the area within sixteen radii.
@@ -147,7 +149,7 @@ fn radii(around: &Around<'_>, top: f64, field: impl Fn(&[Point]) -> Vec<f64>) ->
     rays.iter().map(crossing).collect()
 }
 
-/// Where the straight line between the ends of a bracket crosses half.
+/// Radius at which the straight line between the ends of a bracket crosses half the value.
 fn crossing(ray: &Ray) -> Option<f64> {
     let outer = ray.outer?;
     Some(ray.inner.0 + (outer.0 - ray.inner.0) * ray.inner.1 / (ray.inner.1 - outer.1))

@@ -18,7 +18,8 @@ pub struct Steepness {
 /// First derivative from five samples, central differences of fourth order (per step): Fornberg, *Math.
 /// Comp.* 51, 699 (1988), table 1.
 const FIRST: [f64; 5] = [1.0 / 12.0, -8.0 / 12.0, 0.0, 8.0 / 12.0, -1.0 / 12.0];
-/// Second derivative from the same, likewise of fourth order (per step²), as in the table.
+/// Second derivative from five samples, central differences of fourth order (per step²), from the same
+/// table.
 const SECOND: [f64; 5] = [-1.0 / 12.0, 16.0 / 12.0, -30.0 / 12.0, 16.0 / 12.0, -1.0 / 12.0];
 
 impl Steepness {

@@ -1,4 +1,4 @@
-//! How well a target follows the waveform it was asked for.
+//! How well a target follows its prescribed waveform.
 
 use crate::{Field, FieldError, Trace};
 use serde::Serialize;
@@ -8,7 +8,7 @@ use unripple_dsp::Convolver;
 /// A target, and the waveform prescribed for it, from the drive's first sample on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wanted {
-    /// Where, in metres: a point, or a set of points that are to move alike.
+    /// Place of the target, in metres: a point, or a set of points that are all to have this motion.
     pub points: Vec<Point>,
     /// Prescribed motion, one value per sample from the drive's first, zero after the last; in metres or m/s.
     pub samples: Vec<f64>,
@@ -21,19 +21,20 @@ pub struct WaveformFigures {
     pub at_m: [f64; 2],
     /// Number of points of the target; all metrics but `gain_range` are of their mean motion.
     pub points: usize,
-    /// Gain of the motion found over the one prescribed, a ratio: ∫found·asked / ∫asked².
+    /// Gain of the motion found relative to the one prescribed, dimensionless: ∫found·prescribed /
+    /// ∫prescribed².
     pub gain: f64,
     /// Least and greatest gain over a set of points; `None` for one point.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gain_range: Option<[f64; 2]>,
-    /// Rms of the difference between the motion found and the one prescribed, over the rms of the latter, in dB, over
-    /// the whole time evaluated.
+    /// Rms of the difference between the motion found and the prescribed one, relative to the rms of the
+    /// prescribed motion, in dB, over the whole time evaluated.
     pub error_db: f64,
     /// Crosstalk: the strongest of the other targets' waveforms, at any delay, in what remains of the target's motion after `gain`
     /// times its own waveform is subtracted, in dB relative to that other waveform; `None` for a single target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crosstalk_db: Option<f64>,
-    /// Largest magnitude of the motion, in metres or m/s.
+    /// Largest magnitude of the target's motion, in metres or m/s.
     pub peak: f64,
 }
 
@@ -42,13 +43,13 @@ pub struct WaveformFigures {
 pub struct SilenceFigures {
     /// Position of the point of silence, in metres.
     pub at_m: [f64; 2],
-    /// Rms of the motion over that of the strongest waveform prescribed, in dB.
+    /// Rms of the motion at this point relative to the rms of the strongest prescribed waveform, in dB.
     pub level_db: f64,
 }
 
 impl Field<'_> {
-    /// Evaluates how well targets follow their waveforms until `until` (s), and the residual motion at the points of
-    /// silence. `pick` takes displacement or velocity from a trace.
+    /// Evaluates how well targets follow their waveforms up to the time `until` (s), and the residual motion
+    /// at the points of silence. `pick` takes displacement or velocity from a trace.
     ///
     /// # Errors
     /// As [`Field::traces`], and [`FieldError::Count`] for a target without points.
@@ -116,7 +117,7 @@ fn energy(signal: &[f64]) -> f64 {
     signal.iter().map(|x| x * x).sum()
 }
 
-/// A ratio of powers in dB; zero counts as -400 dB.
+/// A ratio of powers in dB; a ratio of zero counts as -400 dB.
 fn decibels(ratio: f64) -> f64 {
     10.0 * ratio.max(1e-40).log10()
 }

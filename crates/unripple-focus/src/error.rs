@@ -1,9 +1,9 @@
-//! Why no drive could be made.
+//! Why no drive could be computed.
 
 use unripple_core::{CoreError, OutOfRange, Point};
 use unripple_dsp::DspError;
 
-/// Why no drive could be made.
+/// Why no drive could be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FocusError {
     /// A target lies outside the surface.
@@ -11,7 +11,7 @@ pub enum FocusError {
     Outside {
         /// Index of the target.
         target: usize,
-        /// The point asked for.
+        /// The point requested.
         at: Point,
         /// The nearest point of the surface.
         nearest: Point,
@@ -24,16 +24,16 @@ pub enum FocusError {
     Unknown {
         /// Index of the target.
         target: usize,
-        /// The point asked for.
+        /// The point requested.
         at: Point,
         /// The nearest point with responses.
         nearest: Point,
-        /// How far that is, in metres.
+        /// Distance from the requested point to the nearest one with responses, in metres.
         distance: f64,
-        /// How far it may be, in metres.
+        /// The largest distance accepted, in metres.
         reach: f64,
     },
-    /// No actuator moves the target: it lies on a held edge or on nodal lines.
+    /// No actuator moves the target: it lies on a fixed edge or on nodal lines.
     #[error(
         "target {}: no actuator can move {at} (on a held edge or a nodal line?), expected a point that moves", target + 1
     )]
@@ -46,25 +46,25 @@ pub enum FocusError {
     /// A number is out of its range.
     #[error(transparent)]
     Range(#[from] OutOfRange),
-    /// A count is out of its range: of targets, points, actuators or samples.
+    /// A count (of targets, points, actuators or samples, for example) is out of its range.
     #[error("{what}: expected {expected}, found {found}")]
     Count {
         /// What was counted.
         what: &'static str,
-        /// The legal counts.
+        /// The range of counts accepted, in words.
         expected: String,
-        /// How many there are.
+        /// The count found.
         found: usize,
     },
     /// No method has this name.
     #[error("no method `{found}`: expected one of {expected}")]
     Method {
-        /// The name asked for.
+        /// The name requested.
         found: String,
         /// The names of all methods.
         expected: String,
     },
-    /// The request needs modal responses and these are sampled; the string says what needs them.
+    /// The request needs modal responses, but the responses are sampled; the string names what needs modes.
     #[error("{0}: expected modal responses, found sampled ones")]
     NeedsModes(&'static str),
     /// Two targets are so close that their levels cannot differ.
@@ -75,7 +75,7 @@ pub enum FocusError {
     Inseparable {
         /// Index of the target.
         target: usize,
-        /// Index of the earlier target that it cannot be told from.
+        /// Index of an earlier target, to which this one is too close for different levels.
         other: usize,
     },
     /// A matrix computed from the responses is not positive definite, or its eigenvalues were not found.
@@ -89,10 +89,10 @@ pub enum FocusError {
         /// Duality gap reached, as a share of the objective.
         found: f64,
     },
-    /// The drive could not be built.
+    /// The computed samples do not form a valid drive.
     #[error(transparent)]
     Core(#[from] CoreError),
-    /// The responses do not fit together.
+    /// Matrices or signals of the responses have sizes that do not match, or a number is out of its range.
     #[error(transparent)]
     Dsp(#[from] DspError),
 }

@@ -13,26 +13,29 @@ pub struct Focused {
     /// Common period of all repeated targets, in samples; `None` if none is repeated. The last full period of the drive
     /// is its last `period` samples.
     pub period: Option<usize>,
-    /// The points each target was focused on: those asked for, or the nearest ones whose responses are stored.
+    /// The points on which each target was focused: those requested or, with sampled responses, the nearest
+    /// stored ones.
     pub points: Vec<Vec<Point>>,
     /// The method by which the drive was computed.
     pub method: Method,
-    /// What the limits did to the waveforms, beyond scaling the whole drive.
+    /// How the amplitude limits changed the waveforms, apart from scaling the whole drive by one factor.
     pub shaping: Shaping,
 }
 
-/// What the limits of a drive did to its waveforms, beyond scaling the whole drive.
+/// How the amplitude limits changed the waveforms of a drive, apart from scaling the whole drive by one
+/// factor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Shaping {
-    /// Limits changed nothing: the waveforms are those that the method gives without them.
+    /// The limits did not change the waveforms, apart from one common factor.
     #[default]
     Unshaped,
-    /// Limits changed the waveforms: one-bit, or samples held at a limit.
+    /// The limits changed the waveforms: the drive is one-bit, or some of its samples are clipped at a
+    /// limit.
     Shaped,
-    /// [`Method::Limited`] found no drive within the limits that gives several targets their levels together, above those that
-    /// unshaped waveforms reach: the waveforms are those that it gives without limits, scaled to them.
+    /// [`Method::Limited`] found no drive that brings several targets together to higher levels than the
+    /// drive computed without limits does once it is scaled to the limits; that scaled drive is the result.
     GaveUp {
-        /// How many levels were tried, each with half of the rise of the one before.
+        /// Number of levels tried, each half as far above the level of the scaled drive as the one before.
         attempts: usize,
     },
 }

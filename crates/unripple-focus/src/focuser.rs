@@ -1,4 +1,4 @@
-//! Computes drives for targets by any method.
+//! Computes drives that focus on targets, by any [`Method`].
 
 use crate::magnitude::{energy, peak};
 use crate::planned::Planned;
@@ -25,16 +25,17 @@ pub struct Focuser<'r> {
 /// The computation of drives, by kind of method.
 #[derive(Debug)]
 enum Maker<'r> {
-    /// Plays responses backwards: time reversal and one-bit.
+    /// Reverses responses in time: time reversal and one-bit.
     Reversal(Recorder<'r>),
     /// Optimises the state at the focal instant: inverse, concentrate, limited and robust.
     Planned(Box<Planned<'r>>),
-    /// Minimises what is felt outside the targets.
+    /// Minimises what a fingertip would feel outside the targets.
     Felt(Box<FeltPlan<'r>>),
 }
 
 impl<'r> Focuser<'r> {
-    /// Prepares the method and the window of `options` for a surface with these responses.
+    /// Prepares the computation of drives for a surface with these responses, by the method and for the
+    /// window of `options`.
     ///
     /// # Errors
     /// [`FocusError::Range`] for options out of range, [`FocusError::Count`] for a window of no sample, of too many, or
@@ -44,8 +45,9 @@ impl<'r> Focuser<'r> {
         Self::beside(responses, &[], options)
     }
 
-    /// Prepares a surface and variants of it, such as with another tension or under a finger. [`Method::Robust`]
-    /// minimises the velocity outside on the variants as well; other methods ignore them.
+    /// Prepares the computation of drives for a surface and variants of it, such as with another tension or
+    /// under a finger. [`Method::Robust`] minimises the velocity outside the targets on the variants as
+    /// well; other methods ignore them.
     ///
     /// # Errors
     /// As [`Focuser::new`], and if a variant has another number of actuators or another sample rate.
@@ -97,8 +99,9 @@ impl<'r> Focuser<'r> {
         self.focus_at(targets, 1.0)
     }
 
-    /// The drive that reaches `share` (a dimensionless factor) of the level that [`Focuser::focus`] reaches.
-    /// [`Method::Limited`] solves for that level, and the waveforms change; drives of other methods are scaled.
+    /// The drive that focuses on these targets at `share` (a dimensionless factor) of the level that
+    /// [`Focuser::focus`] reaches. [`Method::Limited`] solves for that level, and the waveforms change;
+    /// drives of other methods are scaled.
     ///
     /// # Errors
     /// As [`focus`]; [`FocusError::Range`] for a share that is no positive number.
@@ -124,7 +127,7 @@ impl<'r> Focuser<'r> {
                 return Ok(Focused { drive: focused.drive.scaled(share), ..focused });
             }
         };
-        // A level below that of the limits was solved for: what keeps them stays as it is.
+        // A drive solved for a level below that of the limits keeps them already, and is not scaled up.
         let solved = self.options.method == Method::Limited && share != 1.0;
         self.limit(&mut channels, solved)?;
         let names = self.responses.ports().iter().map(|port| port.name.clone()).collect();
@@ -160,8 +163,9 @@ impl<'r> Focuser<'r> {
         Ok(points)
     }
 
-    /// Superposes optimised drives: one for all targets that come once, and one for the targets of each period. Returns
-    /// the points of each target, and the most that the limits did to any of the drives.
+    /// Superposes optimised drives: one for all targets that are not repeated, and one for the targets of
+    /// each repetition period. Returns the points of each target, and the strongest change that the limits
+    /// made to any of the drives.
     fn seek(
         &self,
         once: &Planned<'_>,
@@ -209,7 +213,7 @@ impl<'r> Focuser<'r> {
         Schedule::plan(&rates, conditions)
     }
 
-    /// Raises responses by e^{+t/τ}, if the options say so.
+    /// Multiplies responses by e^{+t/τ}, if the options request it.
     fn correct(&self, recording: &mut Recording) {
         if let LossCorrection::Uniform(tau) = self.options.loss {
             let step = 1.0 / (tau * self.responses.conditions().rate);
@@ -229,8 +233,8 @@ impl<'r> Focuser<'r> {
         }
     }
 
-    /// Brings the drive to the limits: its peak to `limit`, then down to the rms limits. One that was `solved` for its level is only
-    /// brought down.
+    /// Scales the drive so that its peak equals `limit`, then down if an rms limit requires it. A drive that
+    /// was `solved` for its level is only scaled down.
     fn limit(&self, channels: &mut [Vec<f64>], solved: bool) -> Result<(), FocusError> {
         let limit = self.options.limit;
         let peak = channels.iter().map(|channel| peak(channel)).fold(0.0, f64::max);
@@ -277,13 +281,15 @@ fn add(drive: &[f64], timing: Timing, window: usize, channels: &mut [Vec<f64>]) 
     }
 }
 
-/// The drive that focuses on `targets` through `responses`, at the responses' rate, one channel per actuator.
+/// Computes the drive that focuses on `targets` on a surface with these responses: one channel per actuator,
+/// at the sample rate of the responses.
 ///
 /// # Errors
-/// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for targets that cannot be reached,
-/// [`FocusError::Range`] and [`FocusError::Count`] for numbers and counts out of range, [`FocusError::NeedsModes`]
-/// where sampled responses are not enough, [`FocusError::Inseparable`] for targets of [`Method::Felt`] too close to
-/// have levels of their own, [`FocusError::Decomposition`] and [`FocusError::Gap`] where an optimum is not found.
+/// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for targets that cannot be
+/// reached, [`FocusError::Range`] and [`FocusError::Count`] for numbers and counts out of range,
+/// [`FocusError::NeedsModes`] where sampled responses are not enough, [`FocusError::Inseparable`] for
+/// targets of [`Method::Felt`] too close to each other for different levels, [`FocusError::Decomposition`]
+/// and [`FocusError::Gap`] where an optimum is not found.
 pub fn focus(responses: &Responses, targets: &[Target], options: &Options) -> Result<Focused, FocusError> {
     Focuser::new(responses, options)?.focus(targets)
 }

@@ -1,12 +1,12 @@
-//! Gains that bring every focus to its own level: a small linear system.
+//! Gains of reversed responses that give every focus its prescribed level, from a small linear system.
 
 use crate::FocusError;
 use crate::recording::Recording;
 use unripple_core::{OutOfRange, require};
 use unripple_linalg::{Cholesky, Mat};
 
-/// Gains of reversed responses that bring every focus to its own level, with the motion that foci cause at each other
-/// accounted for.
+/// Gains of reversed responses that give every focus its prescribed level, including the motion that foci
+/// cause at each other.
 ///
 /// Response k is played backwards so that its sample 0 falls on `instants[k]`, over samples 0 and later of the drive. The velocity
 /// at focus k is then `Σ_l G_kl c_l / rate` with `G_kl = Σ_a Σ_j h_ak[f_k − j] h_al[f_l − j]`, the Gram matrix of the reversed
@@ -50,7 +50,7 @@ pub(crate) fn gains(
     Ok(gains)
 }
 
-/// The sum Σab in eight independent sums, as far as the shorter goes.
+/// The sum Σab over the length of the shorter slice, in eight independent partial sums.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let length = a.len().min(b.len());
     let (a, b) = (&a[..length], &b[..length]);

@@ -2,8 +2,8 @@
 
 use crate::magnitude::{energy, peak};
 
-/// Scales channels (actuators x samples) down as a whole to a largest magnitude and a largest rms per
-/// channel, in the drive's unit, and says by which factor: 1 where neither was reached.
+/// Scales all channels (actuators x samples) down by one factor, so that their peak and the rms of each stay
+/// within limits in the drive's unit. Returns the factor, 1 if no limit was exceeded.
 pub(crate) fn hold(channels: &mut [Vec<f64>], limit: f64, rms_limit: Option<f64>) -> f64 {
     let highest = channels.iter().map(|channel| peak(channel)).fold(0.0, f64::max);
     let rms = |channel: &Vec<f64>| (energy(channel) / channel.len().max(1) as f64).sqrt();

@@ -8,21 +8,22 @@ use unripple_linalg::{Lu, Mat, MatRef, Scale, product};
 /// Largest number of steps of Newton's method. With twice this value, a problem that does not converge takes twice as long to fail.
 const STEPS: usize = 80;
 
-/// The duality gap it stops at, as a share of the objective: that is how far the drive may be from the best.
-/// Smaller, it takes a step or two more.
+/// The duality gap at which Newton's method stops, as a share of the objective: a bound on how far the drive
+/// is from the optimum. A smaller value costs a step or two more.
 pub(crate) const GAP: f64 = 1e-6;
 
 /// Largest number of attempts at a rise in level above that of the unlimited drive, where several targets cannot reach their levels
 /// together: each is at half the rise of the one before. With twice this value, the last is at a 2048th of that rise instead of a 32nd.
 const ATTEMPTS: usize = 6;
 
-/// Halvings of a step at most: a billionth of Newton's. With twice this value, what does not descend takes longer to fail.
+/// Largest number of halvings of a Newton step, down to a billionth of it. With twice this value, a search
+/// that finds no improvement takes longer to fail.
 const HALVINGS: usize = 30;
 
 /// Bisections for the multiplier of an rms limit: to the last bits. More change nothing.
 const BISECTIONS: usize = 60;
 
-/// Limits of the drive, and the level to be reached within them.
+/// Limits of a drive's amplitude, and the level to be reached within these limits.
 ///
 /// The drive that minimises `½ yᵀ(A - ε)y + ½ ε|d|²` under `|d| ≤ peak`, the rms of each channel under its limit, and levels
 /// `Pᵀ y = p γ`, where `y = W d`. Its dual has one unknown per coordinate and level, its gradient is that of a sum of
@@ -35,16 +36,17 @@ pub(crate) struct Limits {
     pub rms: Option<f64>,
     /// Largest rms that all channels may have together: √(Σ mean d²).
     pub total_rms: Option<f64>,
-    /// From the level that the unlimited drive reaches when scaled to the limit (0) to that of one-bit (1). Several targets
-    /// may not reach the latter together: then the way there is halved until they do.
+    /// The level requested, as a number from 0, the level of the unlimited drive scaled to the limits, to 1,
+    /// that of the one-bit drive. If several targets cannot reach that level together, `push` is halved
+    /// until they do.
     pub push: f64,
-    /// The level to be reached, as a share of the one that `push` gives.
+    /// Factor, dimensionless, on the level that `push` specifies.
     pub share: f64,
     /// Number of samples of each channel.
     pub samples: usize,
 }
 
-/// The program's unknowns and what follows from them.
+/// Unknowns of the dual problem at one iteration, and the drive that follows from them.
 struct Trial {
     /// Multipliers: η of the state, ω = B η, then μ of the levels.
     dual: Vec<f64>,
@@ -68,9 +70,10 @@ struct Program<'a> {
 }
 
 impl Limits {
-    /// The drive within the limits, channels one behind the other, and what the limits did to it: nothing below the level that
-    /// the unlimited drive reaches. Where several targets reach no level above that together, it is the unlimited drive at its
-    /// limit. `matrix` is the objective's lower triangle, `energy` its share ε, `free` the state that is best without limits.
+    /// Computes the drive within the limits (the samples of one channel after those of another), and how the
+    /// limits changed its waveforms. Up to the level that the unlimited drive reaches, it is the unlimited
+    /// drive, scaled; likewise if several targets reach no higher level together. `matrix` is the lower
+    /// triangle of the objective A, `energy` its term ε, `free` the optimal state without limits.
     ///
     /// # Errors
     /// [`FocusError::Gap`] if the duality gap does not close.
@@ -111,7 +114,7 @@ impl Limits {
         Ok((unlimited.iter().map(|d| d * level).collect(), shaping))
     }
 
-    /// How many times a drive fits the limits.
+    /// The largest factor by which a drive may be multiplied within the limits.
     fn scale(&self, drive: &[f64]) -> f64 {
         let mut most = drive.iter().fold(0.0_f64, |m, d| m.max(d.abs())) / self.peak;
         let rms = |c: &[f64]| (c.iter().map(|d| d * d).sum::<f64>() / self.samples as f64).sqrt();
@@ -124,7 +127,8 @@ impl Limits {
         1.0 / most
     }
 
-    /// The level that one-bit drives reach, all targets together: the smallest multiple of the levels wanted.
+    /// The level that a one-bit drive reaches at all targets together: the smallest ratio of a level reached
+    /// to the level wanted.
     fn highest(&self, map: &Mat<f64>, levels: &Levels) -> f64 {
         let wanted = Mat::from_fn(levels.wanted.len(), 1, |k, _| levels.wanted[k]);
         let together = product(map.transpose(), product(levels.readout.as_ref(), wanted.as_ref()).as_ref());
@@ -138,7 +142,8 @@ impl Limits {
         fit * ratios.map(|(reached, wanted)| reached / wanted).fold(f64::INFINITY, f64::min)
     }
 
-    /// For each channel 1/(ε + ν), ν the price of its rms limit and of that of all together; `forced` is `Wᵀ(P μ - B η)`.
+    /// For each channel 1/(ε + ν), with ν the multipliers of its rms limit and of the total rms limit;
+    /// `forced` is `Wᵀ(P μ - B η)`.
     fn slopes(&self, forced: &[f64], energy: f64) -> Vec<f64> {
         let each = |start: f64| -> Vec<f64> {
             let channels = forced.chunks_exact(self.samples);
@@ -153,7 +158,7 @@ impl Limits {
         each(self.within(1.0 / energy, self.total_rms, all))
     }
 
-    /// The largest slope up to `start` whose sum of squares keeps an rms limit.
+    /// The largest slope, up to `start`, at which the drive's sum of squares stays within an rms limit.
     fn within(&self, start: f64, limit: Option<f64>, square: impl Fn(f64) -> f64) -> f64 {
         let Some(most) = limit.map(|limit| limit * limit * self.samples as f64) else { return start };
         if square(start) <= most {
@@ -167,14 +172,14 @@ impl Limits {
         low
     }
 
-    /// Σd² of a channel clipped to its peak.
+    /// Σd² of a channel with samples clipped at the peak limit.
     fn square(&self, channel: &[f64], slope: f64) -> f64 {
         channel.iter().map(|q| (q * slope).clamp(-self.peak, self.peak).powi(2)).sum()
     }
 }
 
 impl Program<'_> {
-    /// The best drive, by damped Newton steps from the state that is best without limits.
+    /// The optimal drive, by damped Newton steps that start from the optimal state without limits.
     fn solve(&self, free: Mat<f64>) -> Result<Vec<f64>, FocusError> {
         // Without limits `ε d = Wᵀ(P μ - B η)` at η = W d.
         let force = &free * Scale(self.energy) + product(self.matrix.as_ref(), free.as_ref());
@@ -208,7 +213,7 @@ impl Program<'_> {
         if found < GAP { Ok(trial.drive) } else { Err(FocusError::Gap { expected: GAP, found }) }
     }
 
-    /// The best drive for multipliers, and the dual's value there.
+    /// The optimal drive for given multipliers, and the value of the dual function.
     fn at(&self, dual: Vec<f64>) -> Trial {
         let rank = self.matrix.nrows();
         let (eta, mu) = dual.split_at(rank);
@@ -236,7 +241,8 @@ impl Program<'_> {
         Trial { dual, drive, slopes, state, value }
     }
 
-    /// What the drive costs above the dual's value, with the price of levels it misses, as a share of its cost.
+    /// The duality gap: cost of the drive minus the dual's value, plus the multipliers times the levels
+    /// missed, as a share of the cost.
     fn gap(&self, trial: &Trial) -> f64 {
         let mu = &trial.dual[self.matrix.nrows()..];
         let missed = read(self.levels.readout.as_ref(), trial.state.as_ref());

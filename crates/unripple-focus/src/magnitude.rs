@@ -1,4 +1,5 @@
-//! Energy and peak of samples, each in eight parts that do not wait for each other.
+//! Energy and peak of samples, each in eight independent parts that a processor can compute at the same
+//! time.
 
 /// Σh² over all samples, in eight independent sums.
 pub(crate) fn energy(samples: &[f64]) -> f64 {

@@ -1,4 +1,4 @@
-//! Recordings for time reversal, synthesised from modes.
+//! Responses for time reversal, synthesised from modes.
 
 use crate::magnitude::energy;
 use crate::{FocusError, LossCorrection, Options};
@@ -14,8 +14,8 @@ const VALUES_AT_ONCE: usize = 1 << 22;
 /// targets close to a held edge would be refused.
 pub(crate) const REST: f64 = 1e-9;
 
-/// Accuracy for which single precision is enough: its rounding adds about as much. Larger, single precision
-/// would be used less.
+/// Accuracy for which single precision is enough: its rounding error is about as large. Larger, single
+/// precision would be used less.
 const SINGLE: f64 = 1e-6;
 
 /// Modes times samples of the largest synthesis that is planned ahead rather than summed block by block:
@@ -27,17 +27,17 @@ const PLANNED: usize = 1 << 26;
 pub(crate) struct ModalRecorder<'r> {
     responses: &'r ModalResponses,
     length: usize,
-    /// The planned synthesis; `None` for what is summed directly.
+    /// The synthesis prepared in advance; `None` if responses are summed directly.
     synth: Option<ModalSynth>,
     /// Whether the decay of each mode is compensated by its own rate.
     lossless: bool,
     accuracy: f64,
-    /// Size of the shape weights where the surface does move.
+    /// Largest mode-shape weight on the surface, to which small weights are compared.
     usual: f64,
 }
 
 impl<'r> ModalRecorder<'r> {
-    /// Plans recordings of `length` samples.
+    /// Prepares the synthesis of responses of `length` samples.
     pub fn plan(responses: &'r ModalResponses, length: usize, options: &Options) -> Self {
         let usual = usual(responses);
         let (lossless, accuracy) = (options.loss == LossCorrection::PerMode, options.accuracy);
@@ -47,8 +47,8 @@ impl<'r> ModalRecorder<'r> {
         Self { responses, length, synth, lossless, accuracy, usual }
     }
 
-    /// The sum of the responses at all points, `[actuator][sample]`, and the sum of their energies: nothing and zero
-    /// where the surface is held still.
+    /// The sum of the responses at all points, `[actuator][sample]`, and the sum of their energies; an empty
+    /// vector and zero if no mode moves the points.
     pub fn record(&self, points: &[Point]) -> Result<(Vec<f64>, f64), FocusError> {
         let readout = self.readout(points);
         if largest(readout.as_ref()) <= REST * self.usual {
@@ -132,7 +132,7 @@ impl<'r> ModalRecorder<'r> {
     }
 }
 
-/// Size of the shape weights where the surface does move: the largest over a lattice.
+/// Largest mode-shape weight over a lattice of points on the surface.
 pub(crate) fn usual(responses: &ModalResponses) -> f64 {
     let (width, height) = responses.conditions.outline.extent();
     let lattice = (0..25).map(|i| {

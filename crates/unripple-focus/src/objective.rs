@@ -1,26 +1,28 @@
-//! The cost of a state: contrast against energy, with levels as constraints.
+//! Cost of a state of the surface: velocity outside the targets and energy of the drive, with the targets'
+//! levels as constraints.
 
 use crate::FocusError;
 use crate::state::State;
 use unripple_core::{Conditions, Point};
 use unripple_linalg::{Cholesky, Mat, MatRef, Scale, add_square, product, squared_norm};
 
-/// Share of energy in the objective that always stays, so that a drive of least velocity outside exists.
-/// Larger, the strongest concentration is less strong; smaller, A is singular but for rounding.
+/// Smallest weight of energy in the objective, so that a drive of least velocity outside exists. Larger, the
+/// strongest concentration is less strong; smaller, A is singular but for rounding.
 const LEAST: f64 = 1e-9;
 
 /// Share of the diagonal added to the system of levels, for points closer to each other than waves can tell
 /// apart (Tikhonov regularisation). Larger, levels of such points are met less well.
 const RIDGE: f64 = 1e-9;
 
-/// Levels wanted at readouts of a state: `Pᵀ y = γ`.
+/// Velocities required at points, as linear constraints on a state y: `Pᵀ y = γ`.
 #[derive(Debug)]
 pub(crate) struct Levels {
-    /// Readouts P, rank x levels.
+    /// The matrix P, rank x levels: each column gives the velocity at one point as a linear function of the
+    /// state.
     pub readout: Mat<f64>,
-    /// γ, in m/s.
+    /// The velocities γ required, in m/s.
     pub wanted: Vec<f64>,
-    /// The points of the readouts, in metres.
+    /// The points at which the velocities are required, in metres.
     pub points: Vec<Point>,
 }
 
@@ -45,7 +47,8 @@ pub(crate) struct Objective {
 }
 
 impl Objective {
-    /// Computes what does not depend on the targets. With `all`, cells within the focal discs of targets count, too.
+    /// Computes what does not depend on the targets. With `all`, cells of the surface within the focal discs
+    /// of targets count as well.
     ///
     /// # Errors
     /// [`FocusError::Decomposition`] if A is not positive definite.
@@ -78,7 +81,8 @@ impl Objective {
         Ok(Self { whole, factor, energy, cells, points: places, radius })
     }
 
-    /// The matrix A for targets (m), rank x rank, the cells in their discs left out; the lower triangle.
+    /// The lower triangle of the cost matrix A (rank x rank), without the surface cells in the focal discs
+    /// of `targets` (m).
     pub fn around(&self, targets: &[Point]) -> Mat<f64> {
         let inside: Vec<usize> = (0..self.points.len())
             .filter(|c| targets.iter().any(|at| at.distance(self.points[*c]) <= self.radius))
@@ -94,7 +98,7 @@ impl Objective {
         matrix
     }
 
-    /// The state that costs least at these levels: `y = A⁻¹ P μ`, μ from `Pᵀ A⁻¹ P μ = γ`.
+    /// The state of least cost that has these levels: `y = A⁻¹ P μ`, μ from `Pᵀ A⁻¹ P μ = γ`.
     ///
     /// # Errors
     /// [`FocusError::Decomposition`] if A is not positive definite.
@@ -111,7 +115,7 @@ impl Objective {
     }
 }
 
-/// Combines states so that levels are met: `y = X μ` with `Pᵀ X μ = γ`.
+/// Combines states linearly so that levels are met: `y = X μ` with `Pᵀ X μ = γ`.
 ///
 /// # Errors
 /// [`FocusError::Decomposition`] if no combination meets them.
@@ -128,7 +132,7 @@ fn level(states: Mat<f64>, levels: &Levels) -> Result<Mat<f64>, FocusError> {
     Ok(product(states.as_ref(), factors.as_ref()))
 }
 
-/// Reads a state: `Pᵀ y`, one number per level.
+/// The velocities `Pᵀ y` of a state y, one number per level.
 pub(crate) fn read(readout: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Vec<f64> {
     product(readout.transpose(), y).col_as_slice(0).to_vec()
 }

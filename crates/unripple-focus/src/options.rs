@@ -10,22 +10,25 @@ pub enum Method {
     /// peak for a given drive energy.
     #[default]
     TimeReversal,
-    /// The sign of time reversal at the limit: the highest peak for a given drive limit. Where time reversal is
-    /// exactly zero, so is this.
+    /// The sign of the time-reversed drive times the limit: the highest peak for a given drive limit.
+    /// Samples at which the time-reversed drive is exactly zero stay zero.
     OneBit,
-    /// Spatio-temporal inverse filter: the velocity of the whole surface at the focal instant is minimised with the
-    /// level at the targets held, regularised by the energy of the drive. The field is as near to a delta function as
-    /// the band allows (Tanter, Thomas and Fink 2000).
+    /// Spatio-temporal inverse filter: the velocity of the whole surface at the focal instant is minimised
+    /// with the level at the targets fixed, regularised by the energy of the drive. The field is as near to
+    /// a delta function as the band allows (Tanter, Thomas and Fink 2000).
     Inverse,
-    /// Concentration: the velocity outside the targets' focal discs at the focal instant is minimised with the level at
-    /// the targets held, regularised by the energy of the drive.
+    /// Concentration: the velocity outside the targets' focal discs at the focal instant is minimised with
+    /// the level at the targets fixed, regularised by the energy of the drive.
     Concentrate,
-    /// As [`Method::Concentrate`], with the limits of the actuators as constraints, so that a higher peak is reached.
+    /// Concentration as by [`Method::Concentrate`], with the limits of the actuators as constraints, so that
+    /// a higher peak is reached.
     Limited,
-    /// As [`Method::Concentrate`], on several surfaces at once: all natural frequencies lower by [`Options::spread`],
-    /// nominal and higher by it. This tolerates changes of tension.
+    /// Concentration as by [`Method::Concentrate`], for several surfaces at once: with all natural
+    /// frequencies lower by [`Options::spread`], nominal, and higher by it. This tolerates changes of
+    /// tension.
     Robust,
-    /// What is felt outside the targets, over all time, is minimised: see [`FeltPlan`](crate::FeltPlan).
+    /// The displacement outside the targets, weighted by the threshold of touch and over all time, is
+    /// minimised: see [`FeltPlan`](crate::FeltPlan).
     Felt,
 }
 
@@ -93,10 +96,11 @@ pub enum LossCorrection {
     /// No compensation: the matched filter.
     #[default]
     None,
-    /// The response at age t is raised by e^{+t/τ}, with this amplitude decay time τ in seconds.
+    /// The response at time t after the impulse is multiplied by e^{+t/τ}, with this amplitude decay time τ
+    /// in seconds.
     Uniform(f64),
-    /// Each mode's share of the response is raised by e^{+σt} with the σ of that mode. Modes that do not oscillate
-    /// (overdamped) are left as they are. Modal responses only.
+    /// Each mode's contribution to the response is multiplied by e^{+σt}, with σ the decay rate of that
+    /// mode. Modes that do not oscillate (overdamped) are not compensated. Modal responses only.
     PerMode,
 }
 
@@ -116,20 +120,21 @@ pub struct Options {
     /// Largest rms of all actuators together, √(Σ mean d²) in the drive's unit: the square root of the power that they
     /// may take. A drive above it is scaled down as a whole; [`Method::Limited`] takes it as a constraint.
     pub total_rms: Option<f64>,
-    /// Weight of velocity against energy in the cost, dimensionless: from 0, which is time reversal, to 1, velocity
-    /// alone; `None` for [`Method::strength`]. Not used by time reversal, one-bit and [`Method::Felt`].
+    /// Weight of velocity against energy in the cost, dimensionless: from 0, which is time reversal, to 1,
+    /// velocity alone; `None` for the default of the method, [`Method::strength`]. Not used by time
+    /// reversal, one-bit and [`Method::Felt`].
     pub strength: Option<f64>,
-    /// For [`Method::Limited`]: the level to be reached, from that of the unlimited drive scaled to the limit (0) to
-    /// that of one-bit (1).
+    /// For [`Method::Limited`]: the level to be reached, between that of the unlimited drive scaled to the
+    /// limit (0) and that of the one-bit drive (1).
     pub push: f64,
-    /// For [`Method::Robust`]: shift s of all natural frequencies, as a share of them, below 0.5. The surfaces are
-    /// those at 1 − s, 1 and 1 + s times the nominal frequencies.
+    /// For [`Method::Robust`]: shift s of all natural frequencies, as a share of them, below 0.5. The drive
+    /// is optimised for surfaces with 1 − s, 1 and 1 + s times the nominal frequencies.
     pub spread: f64,
     /// For [`Method::Inverse`]: whether the displacements of the modes at the focal instant are minimised along with
     /// their velocities. Needs modal responses; not used for repeated targets.
     pub rest: bool,
-    /// For [`Method::Felt`]: balance between the mean square of what is felt outside the targets (0) and the square of
-    /// its largest value (1).
+    /// For [`Method::Felt`]: weight, 0 to 1, between the two terms that are minimised: the mean square (0)
+    /// and the square of the largest value (1) of what is felt outside the targets.
     pub worst: f64,
     /// For [`Method::Felt`]: weight of the drive's energy, dimensionless and above 0; see [`FeltOptions::economy`].
     pub economy: f64,
@@ -182,10 +187,10 @@ impl Options {
         }
     }
 
-    /// Refuses options out of their range, those of the method among them.
+    /// Checks that all options are in their ranges, including those of the method.
     ///
     /// # Errors
-    /// [`FocusError::Range`] that names the first of them.
+    /// [`FocusError::Range`] that names the first option out of its range.
     pub fn check(&self) -> Result<(), FocusError> {
         let positive = |x: f64| x.is_finite() && x > 0.0;
         require("window (s)", positive(self.window), "a positive number", self.window)?;

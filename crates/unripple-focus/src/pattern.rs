@@ -4,8 +4,8 @@ use crate::FocusError;
 use std::f64::consts::PI;
 use unripple_core::{Point, require};
 
-/// Largest number of points that a pattern is sampled into: each has responses of its own. With twice this value, the largest
-/// take twice the time.
+/// Largest number of points of a sampled pattern: responses are computed for each. With twice this value,
+/// the largest take twice the time.
 const MOST_POINTS: usize = 100_000;
 
 /// Chords of a circle, of a degree each: within 4e-5 of its radius. With twice this value, it is right within 1e-5.
@@ -172,7 +172,7 @@ fn within_bounds(found: f64) -> Result<(), FocusError> {
     Ok(require("points of a pattern", found <= MOST_POINTS as f64, expected, found)?)
 }
 
-/// Points along a line: every run between corners in equal steps, corners and ends included.
+/// Points along a line: equal steps between each two corners, with the corners and ends included.
 fn stroke(line: &Line, pitch: f64) -> Vec<Point> {
     let mut path = line.points.clone();
     path.dedup();
@@ -202,7 +202,7 @@ fn is_corner(a: Point, b: Point, c: Point) -> bool {
     along < (PI / 6.0).cos() * a.distance(b) * b.distance(c)
 }
 
-/// Appends points at equal distances along a run, its start included and its end left to the next.
+/// Appends points at equal distances along a run, including its start but not its end.
 fn divide(run: &[Point], pitch: f64, points: &mut Vec<Point>) {
     let length: f64 = run.windows(2).map(|side| side[0].distance(side[1])).sum();
     let steps = (length / pitch).round().max(1.0);

@@ -27,14 +27,14 @@ pub(crate) struct Planned<'r> {
 pub(crate) struct Sought {
     /// Samples of the drive, `[actuator][sample]`.
     pub drive: Vec<f64>,
-    /// The points of each target: those asked for, or the nearest ones whose responses are stored.
+    /// The points of each target: those requested or, with sampled responses, the nearest stored ones.
     pub points: Vec<Vec<Point>>,
-    /// What the limits did to its waveforms.
+    /// How the limits changed the waveforms, apart from scaling the whole drive.
     pub shaping: Shaping,
 }
 
 impl<'r> Planned<'r> {
-    /// Prepares drives of `length` samples that come once or, with `again`, are repeated without end.
+    /// Prepares drives of `length` samples, which are played once or, with `again`, repeated without end.
     ///
     /// # Errors
     /// [`FocusError::Count`], [`FocusError::NeedsModes`] and [`FocusError::Decomposition`].
@@ -57,8 +57,8 @@ impl<'r> Planned<'r> {
         Ok(Self { state, objective, options: options.clone() })
     }
 
-    /// The drive that gives targets their gains as velocity at the focal instant, in m/s. For [`Method::Limited`], the
-    /// drive that reaches `share` of the level that the limits allow.
+    /// Computes the drive for which the velocity of each target at the focal instant, in m/s, equals its
+    /// gain. For [`Method::Limited`], the drive reaches `share` of the level that the limits allow.
     ///
     /// # Errors
     /// [`FocusError::Still`] and [`FocusError::Unknown`] for targets that cannot be reached, [`FocusError::Count`] for too
@@ -83,7 +83,8 @@ impl<'r> Planned<'r> {
         Ok(Sought { drive, points, shaping })
     }
 
-    /// The levels wanted at all points of some targets, and the points that stand for them.
+    /// The levels wanted at all points of some targets, and the points used: those requested, or the nearest
+    /// stored ones.
     fn levels(&self, targets: &[(usize, &Target)]) -> Result<(Levels, Vec<Vec<Point>>), FocusError> {
         let count: usize = targets.iter().map(|(_, target)| target.points.len()).sum();
         if count > MOST_POINTS {
@@ -117,7 +118,7 @@ impl<'r> Planned<'r> {
     }
 }
 
-/// The nominal plant, and those over which the method optimises as well.
+/// The model of the nominal surface, and those of all others for which the method optimises.
 fn plants<'r>(
     responses: &'r Responses,
     options: &Options,
@@ -139,7 +140,7 @@ fn plants<'r>(
     Ok(plants)
 }
 
-/// One plant, its frequencies times `stretch`.
+/// The model of one surface, with its natural frequencies multiplied by `stretch`.
 fn plant(responses: &Responses, length: usize, stretch: f64, again: bool) -> Result<Plant<'_>, FocusError> {
     match responses {
         // Under loads, the shapes of the oscillations are linearly dependent.
@@ -161,7 +162,7 @@ fn plant(responses: &Responses, length: usize, stretch: f64, again: bool) -> Res
     }
 }
 
-/// Refuses a plant with another number of actuators or another sample rate.
+/// Refuses responses with another number of actuators or another sample rate than the first.
 fn alike(one: &Responses, other: &Responses) -> Result<(), FocusError> {
     let [expected, found] = [one, other].map(|responses| responses.ports().len());
     if expected != found {

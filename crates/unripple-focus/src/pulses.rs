@@ -6,8 +6,8 @@ use crate::settle::settle;
 use crate::{FocusError, Options, Target, level};
 use unripple_core::{Drive, Point, Responses, require, window_samples};
 
-/// Decay, in nepers, after which responses are cut off: to 1/10 000. With twice this value, recordings are twice as long for levels
-/// that are right to 1e-8.
+/// Decay, in nepers, after which responses are cut off: to 1/10 000. With twice this value, responses are
+/// twice as long, for levels accurate to 1e-8.
 const FORGOTTEN: f64 = 9.2;
 
 /// Largest number of samples of all recordings together, half a GiB of them. Twice as many take a GiB.
@@ -20,12 +20,12 @@ const MOST_POINTS: usize = 1 << 13;
 /// A focal pulse: where, when, and with which velocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pulse {
-    /// Where, in metres: a point, or a set of points that are all to have this level.
+    /// Place of the pulse, in metres: a point, or a set of points that are all to have the velocity `level`.
     pub points: Vec<Point>,
     /// Focal instant, in seconds after the earliest possible one, which is one window after the drive's first sample;
     /// rounded to a sample.
     pub instant: f64,
-    /// Velocity at each of the points at that instant, in m/s.
+    /// Velocity at each of the points at the focal instant, in m/s.
     pub level: f64,
 }
 
@@ -48,7 +48,8 @@ pub struct PulseOptions {
     pub limit: f64,
     /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole.
     pub rms_limit: Option<f64>,
-    /// Accuracy of modal responses, as in [`Options`].
+    /// Truncation error allowed in modal responses, as a share of the sum of the magnitudes of their modes;
+    /// see [`Options::accuracy`].
     pub accuracy: f64,
 }
 
@@ -68,21 +69,21 @@ pub struct Struck {
     pub instants: Vec<usize>,
     /// Factor by which the limits reduced all levels; 1 where no limit was reached.
     pub scale: f64,
-    /// The points of each pulse: those asked for, or the nearest ones whose responses are stored.
+    /// The points of each pulse: those requested or, with sampled responses, the nearest stored ones.
     pub points: Vec<Vec<Point>>,
 }
 
-/// The drive of least energy that gives every point of every pulse its velocity at its instant, exactly but for the
-/// regularisation and the limits.
+/// Computes the drive of least energy for which every point of every pulse has its prescribed velocity at
+/// its prescribed instant; only the regularisation and the limits cause deviations.
 ///
 /// The drive is a sum of reversed responses, `d_a[j] = Σ_k c_k h_ak[f_k − j]`, one k for each point of each pulse. The gains
 /// c_k solve the K x K Gram system of these responses, so that the motion which a pulse causes at the instants of
 /// others is accounted for. Responses reach back to the drive's first sample, or until they have decayed to 1/10 000.
 ///
 /// # Errors
-/// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for points that cannot be reached,
-/// [`FocusError::Range`] for numbers out of range and for pulses too close to have levels of their own,
-/// [`FocusError::Count`] for too many points or samples in all.
+/// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for points that cannot be
+/// reached, [`FocusError::Range`] for numbers out of range and for pulses too close to each other for
+/// different levels, [`FocusError::Count`] for too many points or samples in all.
 pub fn strike(responses: &Responses, pulses: &[Pulse], options: &PulseOptions) -> Result<Struck, FocusError> {
     check(responses, pulses, options)?;
     let rate = responses.conditions().rate;

@@ -1,16 +1,16 @@
-//! Recorded velocity responses of a target, as time reversal plays them backwards.
+//! Velocity impulse responses of a target to all actuators, which time reversal plays backwards.
 
 use crate::magnitude::energy;
 use crate::modal::ModalRecorder;
 use crate::{FocusError, LossCorrection, Options};
 use unripple_core::{Point, Responses, SampledResponses};
 
-/// The velocity responses of a target to every actuator over the window, as they go into the reversal.
+/// Velocity impulse responses of a target to every actuator over the window, as input to time reversal.
 #[derive(Clone, Debug)]
 pub(crate) struct Recording {
-    /// Samples 0 … n of every actuator, `[actuator][sample]`.
+    /// Samples 0 … n of the response to every actuator, `[actuator][sample]`.
     pub samples: Vec<f64>,
-    /// The points whose responses these are.
+    /// The points at which these responses were computed or stored.
     pub points: Vec<Point>,
 }
 
@@ -24,7 +24,7 @@ pub(crate) enum Recorder<'r> {
 }
 
 impl<'r> Recorder<'r> {
-    /// A plan for windows of `length` samples.
+    /// Prepares to read responses over windows of `length` samples.
     pub fn plan(responses: &'r Responses, length: usize, options: &Options) -> Result<Self, FocusError> {
         match responses {
             Responses::Modal(modal) => Ok(Self::Modal(Box::new(ModalRecorder::plan(modal, length, options)))),
@@ -39,8 +39,9 @@ impl<'r> Recorder<'r> {
         }
     }
 
-    /// The sum of the responses at all points (m), actuators x samples. It is scaled so that, played backwards, it moves the points by
-    /// as much on average as single foci would, each made for one of them.
+    /// The sum of the responses at all points (m), actuators x samples. It is scaled so that, played
+    /// backwards, it gives the points the mean velocity that separate foci, one made for each point, would
+    /// give.
     pub fn record(&self, target: usize, points: &[Point]) -> Result<Recording, FocusError> {
         let (mut samples, energies, points) = match self {
             Self::Modal(modal) => {
@@ -69,7 +70,7 @@ pub(crate) struct SampledRecorder<'r> {
 }
 
 impl<'r> SampledRecorder<'r> {
-    /// Reads the first `length` samples.
+    /// Prepares to read the first `length` samples of the stored responses.
     ///
     /// # Errors
     /// [`FocusError::Count`] if responses are shorter.
@@ -81,7 +82,8 @@ impl<'r> SampledRecorder<'r> {
         Ok(Self { responses, length })
     }
 
-    /// The sum of the responses at all points, the sum of their energies, and the points that stood for them.
+    /// The sum of the responses at all points, the sum of their energies, and the stored points used for
+    /// them.
     fn record(&self, target: usize, points: &[Point]) -> Result<(Vec<f64>, f64, Vec<Point>), FocusError> {
         let actuators = self.responses.ports.len();
         let mut sum = vec![0.0; actuators * self.length];
@@ -102,8 +104,8 @@ impl<'r> SampledRecorder<'r> {
     }
 }
 
-/// Index of the stored point that stands for a place (m): the nearest, at most λ_min/4 away, where a focus
-/// still has most of its height.
+/// Index of the stored point used for a place (m): the nearest, at most λ_min/4 away, where a focus still
+/// has most of its height.
 pub(crate) fn locate(responses: &SampledResponses, target: usize, at: Point) -> Result<usize, FocusError> {
     let reach = responses.conditions.lambda_min / 4.0;
     let stored = responses.nearest(at).ok_or(FocusError::Count {

@@ -6,16 +6,18 @@ use unripple_core::require;
 /// Largest number of samples of a drive over all channels: 400 MB of them. With twice this value, drives may be twice as long.
 pub(crate) const MOST_SAMPLES: usize = 50_000_000;
 
-/// A common period may be this many times the longest one; beyond, the longest stands for it. With twice this value, drives
-/// of odd rates are up to twice as long, and exact where they would have been cut.
+/// The common period may be this many times the longest one; if it were longer, the longest one is used
+/// instead. With twice this value, drives of unrelated rates are up to twice as long, and more of them
+/// repeat exactly.
 const MOST_PERIODS: usize = 8;
 
 /// Focal instant and period of one target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Timing {
-    /// Sample of the drive at which the target is in focus; for a repeated target, one within the last full period.
+    /// Sample of the drive at which the target is in focus; for a repeated target, such a sample within the
+    /// last full period.
     pub instant: usize,
-    /// Repetition period in samples; `None` if the target comes once.
+    /// Repetition period of the focus, in samples; `None` if the target is in focus only once.
     pub period: Option<usize>,
 }
 
@@ -26,35 +28,35 @@ pub(crate) struct Schedule {
     pub length: usize,
     /// When each target is in focus.
     pub timing: Vec<Timing>,
-    /// The period after which everything repeats; `None` without repetition.
+    /// Common period of all repeated targets, in samples; `None` if none is repeated.
     pub period: Option<usize>,
-    /// Last sample of the window, n.
+    /// Index n of the last sample of the window.
     window: usize,
 }
 
-/// What a schedule is made for.
+/// Inputs from which a schedule is planned.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Conditions {
     /// Samples per second.
     pub rate: f64,
-    /// Last sample of the window, n.
+    /// Index n of the last sample of the window.
     pub window: usize,
-    /// Channels of the drive.
+    /// Number of channels of the drive.
     pub channels: usize,
-    /// Length asked for, in samples.
+    /// Length of the drive requested, in samples.
     pub duration: Option<usize>,
-    /// Samples after which earlier excitation has decayed; `None` if it never does.
+    /// Samples after which free vibration has decayed; `None` if it never does.
     pub settle: Option<usize>,
 }
 
 impl Schedule {
-    /// Plans the drive for targets that repeat at these rates (Hz), or come once.
+    /// Plans the drive for targets that are repeated at these rates (Hz), or in focus once.
     ///
-    /// Repeated targets are first in focus together, at sample n, and then at every multiple of their own period. The
-    /// common period is their least common multiple, or the longest of them if that is over eight times as long.
-    /// Without a duration asked for, the drive lasts until earlier excitation has decayed by the start of the last full
-    /// period, and half a period beyond a common focus. A target that comes once among repeated ones does so in the
-    /// middle of the last full period.
+    /// Repeated targets are first in focus together, at sample n, and then at every multiple of their own
+    /// period. The common period is their least common multiple, or the longest of them if that is over
+    /// eight times as long. Without a requested duration, the drive lasts until earlier excitation has
+    /// decayed by the start of the last full period, and half a period beyond a common focus. A target that
+    /// is not repeated, among repeated ones, is in focus in the middle of the last full period.
     pub fn plan(rates: &[Option<f64>], conditions: Conditions) -> Result<Self, FocusError> {
         let window = conditions.window;
         let periods = rates.iter().map(|hz| hz.map(|hz| period(hz, conditions.rate)).transpose());
@@ -80,7 +82,8 @@ impl Schedule {
         Ok(Self { length, timing: timing.collect(), period: Some(common), window })
     }
 
-    /// Every sample at which a target is in focus and whose window reaches into the drive, ascending.
+    /// All samples at which a target is in focus, ascending, including those after the drive's end if their
+    /// window begins before it.
     pub fn instants(&self, timing: Timing) -> impl Iterator<Item = usize> + use<> {
         let (first, end) = match timing.period {
             Some(_) => (self.window, self.length + self.window),
@@ -126,7 +129,8 @@ fn steady_length(common: usize, conditions: Conditions) -> Result<usize, FocusEr
     Ok(conditions.window.saturating_add(periods.saturating_mul(common)).saturating_add(half + 1))
 }
 
-/// The last focus half a period before the end, or the last of all if that is before the last full period.
+/// The last focus at least half a period before the end, or the last focus of all if the former is before
+/// the last full period.
 fn last_focus(period: usize, common: usize, length: usize, window: usize) -> usize {
     let last_before = |end: usize| end.checked_sub(window).map(|past| window + past / period * period);
     last_before(length - 1 - period / 2)

@@ -16,7 +16,7 @@ pub(crate) fn settle(responses: &Responses, nepers: f64) -> Option<usize> {
     }
 }
 
-/// Decay rate of the slower part of a mode, in 1/s.
+/// Decay rate of the slower of a mode's two exponentials, in 1/s.
 fn slowest_decay(pole: &Pole) -> f64 {
     let square = (pole.sigma - pole.omega) * (pole.sigma + pole.omega);
     pole.sigma - square.max(0.0).sqrt()

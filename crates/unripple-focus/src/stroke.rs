@@ -58,7 +58,7 @@ impl Stroke {
         end
     }
 
-    /// Refuses a stroke that no drive of `rate` samples per second holds.
+    /// Checks that a drive at `rate` samples per second can contain the stroke.
     ///
     /// # Errors
     /// [`FocusError::Range`] for a speed, rate or level that is not positive, a path without length, and a speed so low that the
@@ -90,7 +90,8 @@ impl Stroke {
         self.pulses_in(responses.conditions())
     }
 
-    /// The same pulses, where responses of these conditions are still to be computed.
+    /// The pulses of [`Stroke::pulses`], from the conditions (band, sample rate, shortest wavelength) alone,
+    /// if the responses have not been computed yet.
     ///
     /// # Errors
     /// Those of [`Stroke::pulses`].

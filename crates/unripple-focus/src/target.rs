@@ -3,8 +3,8 @@
 use crate::FocusError;
 use unripple_core::{Outline, Point, require};
 
-/// Largest number of points over all targets: each has responses of its own. With twice this value, the largest targets take twice the
-/// time.
+/// Largest number of points over all targets: responses are computed for each. With twice this value, the
+/// largest targets take twice the time.
 const MOST_POINTS: usize = 100_000;
 
 /// A target to focus on: a point, or a set of points focused on together, with gain and repetition rate.
@@ -20,33 +20,34 @@ pub struct Target {
     /// of Σ∫h². Other methods make the velocity (for [`Method::Felt`](crate::Method::Felt), what is felt) proportional
     /// to the gain.
     pub gain: f64,
-    /// How often it is repeated, in Hz; `None` for once. Periods are whole samples, `round(rate / rate_hz)`.
+    /// Repetition rate of the focus, in Hz; `None` for a single focus. Periods are whole samples,
+    /// `round(rate / rate_hz)`.
     pub rate_hz: Option<f64>,
 }
 
 impl Target {
-    /// One point (m), once, at gain 1.
+    /// A target of one point (m) with gain 1, not repeated.
     pub fn at(point: Point) -> Self {
         Self::of(vec![point])
     }
 
-    /// A set of points (m), once, at gain 1.
+    /// A target of a set of points (m) with gain 1, not repeated.
     pub fn of(points: Vec<Point>) -> Self {
         Self { points, gain: 1.0, rate_hz: None }
     }
 
-    /// The same target at another gain, a factor without unit.
+    /// This target with another gain (dimensionless).
     pub fn with_gain(self, gain: f64) -> Self {
         Self { gain, ..self }
     }
 
-    /// The same target repeated at a rate in Hz.
+    /// This target with its focus repeated at a rate in Hz.
     pub fn repeated(self, rate_hz: f64) -> Self {
         Self { rate_hz: Some(rate_hz), ..self }
     }
 
-    /// Refuses targets that no drive focuses on, whatever the responses: none, without points, outside the outline, or with gains that are
-    /// not finite or all 0.
+    /// Checks targets against the outline. Refuses an empty list, targets without points or outside the
+    /// outline, and gains that are not finite or all 0.
     ///
     /// # Errors
     /// [`FocusError::Outside`] with the nearest point of the surface; [`FocusError::Count`] and [`FocusError::Range`].

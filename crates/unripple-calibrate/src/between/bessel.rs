@@ -1,4 +1,4 @@
-//! Tables of the Bessel functions that covariances of isotropic fields are made of.
+//! Tables of the Bessel functions of which covariances of isotropic wave fields consist.
 
 use unripple_dsp::bessel_j;
 
@@ -15,20 +15,20 @@ pub(crate) struct Bessel {
 }
 
 impl Bessel {
-    /// Tables for arguments from 0 up to `most`, without unit.
+    /// Tables of both functions for arguments x from 0 up to `most` (dimensionless).
     pub fn up_to(most: f64) -> Self {
         let count = (most.max(0.0) * DENSITY).ceil() as usize + 2;
         Self { nodes: (0..count).map(|i| node(i as f64 / DENSITY)).collect() }
     }
 
-    /// J0(|x|), without unit: the covariance of isotropic waves of one wavenumber k at a distance r, x = kr. Beyond
-    /// the table, the value of its last node.
+    /// J0(|x|), dimensionless: the covariance of isotropic waves of one wavenumber k at a distance r, with x
+    /// = kr. For x beyond the table, the value of its last node is returned.
     pub fn ring(&self, x: f64) -> f64 {
         self.cubic(x, 0)
     }
 
-    /// 2 J1(|x|)/|x|, without unit: the covariance of isotropic waves of all wavenumbers up to k. Beyond the table,
-    /// the value of its last node.
+    /// 2 J1(|x|)/|x|, dimensionless: the covariance of isotropic waves of all wavenumbers up to k at a
+    /// distance r, with x = kr. For x beyond the table, the value of its last node is returned.
     pub fn disc(&self, x: f64) -> f64 {
         self.cubic(x, 1)
     }

@@ -1,4 +1,4 @@
-//! Covariance of the waves between points: kriging with the sheet's own waves as the covariance.
+//! Covariance of the wave field between points, from the sheet's wavenumber at each frequency, for kriging.
 
 use super::bessel::Bessel;
 use super::options::BetweenOptions;
@@ -20,7 +20,7 @@ const LEAST: f64 = 1e-6;
 pub(crate) struct SpectralLine {
     /// Wavenumber, in rad/m.
     pub k: f64,
-    /// Largest wavenumber of the waves other than `k`, in rad/m.
+    /// Largest wavenumber of the nugget's waves (those of wavenumbers other than `k`), in rad/m.
     pub stray_k: f64,
     /// Share (0 to 1) of the field's power in the nugget: waves of wavenumbers other than `k`.
     pub nugget: f64,
@@ -80,7 +80,7 @@ impl Waves {
         Ok(Self { lines, bessel: Bessel::up_to((most * reach).min(1e5)) })
     }
 
-    /// Covariance of the field at two places a distance (m) apart, over its power.
+    /// Covariance of the field at two places a distance (m) apart, relative to the field's power: a ratio.
     pub fn covariance(&self, line: &SpectralLine, distance: f64) -> f64 {
         let ring = self.bessel.ring(line.k * distance);
         if line.nugget == 0.0 {
@@ -89,7 +89,8 @@ impl Waves {
         ring + line.nugget * (self.bessel.disc(line.stray_k * distance) - ring)
     }
 
-    /// By how much that covariance grows with the share of stray waves.
+    /// Derivative of [`Waves::covariance`] by the share of stray waves, those of wavenumbers other than the
+    /// sheet's: a ratio.
     pub fn stray(&self, line: &SpectralLine, distance: f64) -> f64 {
         self.bessel.disc(line.stray_k * distance) - self.bessel.ring(line.k * distance)
     }

@@ -1,4 +1,4 @@
-//! Weights of the points around a place: the kriging equations solved for every frequency bin.
+//! Groups of neighbouring points for which the kriging equations are solved at every frequency bin.
 
 use super::medium::Waves;
 use super::spectra::Spectra;
@@ -73,8 +73,8 @@ pub(crate) struct Patches {
 }
 
 impl Patches {
-    /// One neighbourhood of all points if there are at most `most`, otherwise overlapping neighbourhoods of `most /
-    /// 2` points.
+    /// Builds one neighbourhood of all points if there are at most `most`, otherwise overlapping
+    /// neighbourhoods of `most / 2` points.
     ///
     /// # Errors
     /// [`CalibrateError::Singular`] if the covariance matrix of a neighbourhood is not positive definite.
@@ -97,7 +97,7 @@ impl Patches {
         Ok(Self { centres, neighbourhoods })
     }
 
-    /// The neighbourhood whose middle is nearest to a place (m).
+    /// The neighbourhood whose centre is nearest to a place (m).
     pub fn around(&self, place: Point) -> Option<&Neighbourhood> {
         let nearest = (0..self.centres.len())
             .min_by(|a, b| self.centres[*a].distance(place).total_cmp(&self.centres[*b].distance(place)))?;

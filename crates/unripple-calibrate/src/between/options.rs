@@ -1,4 +1,4 @@
-//! How responses between measured points are interpolated.
+//! Method and options of the interpolation of responses between measured points.
 
 use crate::CalibrateError;
 use unripple_core::require;
@@ -21,7 +21,7 @@ impl Interpolation {
     /// All methods, the simplest first.
     pub const ALL: [Self; 3] = [Self::Nearest, Self::Linear, Self::Kernel];
 
-    /// Name of the method in figures and on the command line.
+    /// Name of the method in reports and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Nearest => "nearest",
@@ -36,17 +36,18 @@ impl Interpolation {
 pub struct BetweenOptions {
     /// Method of interpolation between points.
     pub interpolation: Interpolation,
-    /// Rms of the noise that adds to every response, over the rms of all responses; white up to half the sample rate.
+    /// Rms of the noise in every response, relative to the rms of all responses; the noise is white up to
+    /// half the sample rate.
     pub noise: f64,
-    /// Rms of the relative error of each response's gain, independent from one to the next.
+    /// Rms of the relative error of each response's gain; the errors of different responses are independent.
     pub gain_error: f64,
     /// Rms distance of the points from their stated places, in metres.
     pub position_error: f64,
     /// The nugget of kriging: share (0 to 1) of the field's power in waves whose wavenumber differs from that of the
     /// dispersion relation, as edges, unevenness and errors of that relation cause.
     pub nugget: f64,
-    /// Highest frequency kept, as a multiple (1 to 10) of the top of the band. A raised cosine fades the spectrum out over
-    /// the upper half of the range above the band.
+    /// Highest frequency of interpolated responses, as a multiple (1 to 10) of the top of the band. A raised
+    /// cosine fades the spectrum out over the upper half of the range above the band.
     pub top: f64,
     /// Largest number of points (4 to 5000) in one system of kriging equations. More points are divided into overlapping
     /// neighbourhoods of half this number.
@@ -54,8 +55,9 @@ pub struct BetweenOptions {
 }
 
 impl Default for BetweenOptions {
-    /// Kriging, with noise at -50 dB, gain errors of 0.5 % rms and no errors of position. A hundredth of stray waves is what surfaces with
-    /// masses and uneven tension have; a thousandth makes errors beside masses of 20 mg a quarter larger, and is no better without them.
+    /// Kriging, with noise at -50 dB, gain errors of 0.5 % rms and no errors of position. The share of stray
+    /// waves is a hundredth, as on surfaces with masses and uneven tension; a thousandth makes errors beside
+    /// masses of 20 mg a quarter larger, and is no better without such masses.
     fn default() -> Self {
         Self {
             interpolation: Interpolation::Kernel,

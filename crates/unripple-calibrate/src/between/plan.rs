@@ -128,9 +128,11 @@ impl<'r> Between<'r> {
         Ok(SampledResponses::new(self.responses.ports.clone(), places.to_vec(), conditions, samples, data)?)
     }
 
-    /// Expected error of the interpolated responses at a place (m): the kriging variance, or for the simpler methods that of
-    /// their fixed weights. For the former as large a share of stray waves is assumed as explains by how much the nearest points, each
-    /// left out in turn, differ from what the others predict: beside a stray mass it is much larger than elsewhere.
+    /// Expected error of the interpolated responses at a place (m): the kriging variance, or the error
+    /// variance of the fixed weights of the simpler methods. For kriging, the share of stray waves is
+    /// estimated around the place: each of the nearest points is left out in turn and predicted from the
+    /// others, and the share is chosen that explains the differences. Beside a stray mass it is much larger
+    /// than elsewhere.
     ///
     /// # Errors
     /// As [`Between::at`], and [`CalibrateError::Singular`] if the covariance matrix is not positive definite.
@@ -202,8 +204,8 @@ impl<'r> Between<'r> {
         bin.saturating_sub(reach)..(bin + reach).min(self.waves.lines.len())
     }
 
-    /// Covariance model of a bin, its relative error averaged over the bins around: the power of a single bin mostly tells how
-    /// far it is from a resonance.
+    /// Covariance model of a bin, with its relative error averaged over the bins around: the power of a
+    /// single bin mostly depends on how far it is from a resonance.
     fn line(&self, bin: usize) -> SpectralLine {
         let (mut errors, mut powers) = (0.0, f64::MIN_POSITIVE);
         for bin in self.around(bin) {
@@ -227,7 +229,7 @@ impl<'r> Between<'r> {
         share.max(0.0)
     }
 
-    /// Expected error at all bins, interpolated linearly between the bins `nodes`, where its shares are `known`.
+    /// Expected error at all bins, interpolated linearly between its values `known` at the bins `nodes`.
     fn uncertainty(&self, nodes: &[usize], known: &[f64]) -> Uncertainty {
         let spectra = &self.spectra;
         let share: Vec<f64> = (0..spectra.bins())

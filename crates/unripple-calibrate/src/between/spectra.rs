@@ -10,7 +10,7 @@ use std::sync::Arc;
 use unripple_core::{SampledResponses, require};
 use unripple_linalg::Mat;
 
-/// Turns responses into real spectra and back.
+/// Cosine transform of responses into real spectra, and its inverse.
 ///
 /// A response is causal, so that the transform of its even part, a real number per frequency, determines all of it.
 /// Unlike the response itself its even part has no step at the impulse and, taken over a period of twice its length,
@@ -38,7 +38,7 @@ impl Cosines {
         Self { samples, forward: planner.plan_fft_forward(period), inverse: planner.plan_fft_inverse(period) }
     }
 
-    /// Period of the even part, in samples: twice one less than a response has.
+    /// Period of the even part, in samples: 2 (n - 1) for responses of n samples.
     pub fn period(&self) -> usize {
         self.forward.len()
     }
@@ -69,7 +69,7 @@ impl Cosines {
     }
 }
 
-/// The spectra of many responses, up to a top frequency.
+/// The cosine spectra of many responses, up to a highest frequency.
 #[derive(Clone, Debug)]
 pub(crate) struct Spectra {
     /// Cosine transforms, forward and inverse.
@@ -123,19 +123,19 @@ impl Spectra {
         Ok(Self { cosines, step, actuators, values, powers, square })
     }
 
-    /// Number of bins from 0 Hz up to the top.
+    /// Number of frequency bins, from 0 Hz up to the highest frequency.
     pub fn bins(&self) -> usize {
         self.powers.len() / self.actuators
     }
 
-    /// Mean square of a bin over points and actuators.
+    /// Mean square of the spectra at a frequency bin over all points and actuators.
     pub fn power(&self, bin: usize) -> f64 {
         let row = &self.powers[bin * self.actuators..][..self.actuators];
         row.iter().sum::<f64>() / self.actuators as f64
     }
 
-    /// Values of a bin at some points, points x actuators, of the mean square `square` for each actuator over all points and the bins
-    /// `around` it.
+    /// Values of a frequency bin at some points, points x actuators, scaled for each actuator so that the
+    /// mean square over all points and the bins `around` is `square`.
     pub fn normalised(&self, bin: usize, around: Range<usize>, points: &[usize], square: f64) -> Mat<f64> {
         let (bins, width) = (around.len() as f64, self.values.len() / self.bins());
         let unit: Vec<f64> = (0..self.actuators)
@@ -150,7 +150,7 @@ impl Spectra {
     }
 }
 
-/// 1 up to the first end, 0 from the second, a raised cosine between.
+/// Weight of a frequency: 1 up to the first end, 0 from the second, a raised cosine between.
 fn taper(hz: f64, [from, to]: [f64; 2]) -> f64 {
     if hz <= from { 1.0 } else { 0.5 + 0.5 * (PI * ((hz - from) / (to - from)).min(1.0)).cos() }
 }

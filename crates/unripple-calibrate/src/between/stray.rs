@@ -1,36 +1,40 @@
-//! Expected error of kriging at one place, with as large a share of stray waves as the nearest points show when each is left out.
+//! Expected error of kriging at one place; the share of stray waves is estimated by leaving out each of the
+//! nearest points in turn.
 
 use super::medium::{SpectralLine, Waves};
 use super::system::{System, lower_triangle};
 use unripple_linalg::{Mat, product};
 
-/// Number of nearest points that are predicted from the others. With half as many chance decides; more lie too far away to tell of the
-/// place.
+/// Number of nearest points that are left out in turn and predicted from the others. With half as many,
+/// chance decides; more lie too far away to represent the place.
 const LEFT_OUT: usize = 12;
 
-/// Number of frequencies on either side over which the squares of the differences are averaged: at one alone they mostly tell how far it
-/// is from a resonance.
+/// Number of frequencies on either side over which the squares of the differences are averaged: at a single
+/// frequency they mostly depend on its distance from a resonance.
 const BESIDE: usize = 2;
 
-/// What kriging is expected to leave at one frequency, at a place and at the points around, and what it does leave at those.
+/// Errors of kriging at one frequency: the expected ones at a place and at the points around it, and the
+/// actual ones at these points, each left out in turn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StrayTrial {
     /// Share of stray waves with which the weights are computed.
     nugget: f64,
-    /// Expected power of the error at the place over the field's, with that share.
+    /// Expected power of the error at the place relative to the field's power, with the share `nugget`.
     error: f64,
-    /// By how much it grows with the share of stray waves.
+    /// Derivative of `error` by the share of stray waves.
     slope: f64,
-    /// Mean square by which the nearest points, each left out, differ from what the others predict, over the expected one.
+    /// Mean square difference between the nearest points, each left out in turn, and their predictions from
+    /// the others, relative to the expected mean square.
     off: f64,
-    /// By how much the expected one grows with the share of stray waves, relative to what it is.
+    /// Derivative of the expected mean square by the share of stray waves, relative to that mean square.
     off_slope: f64,
 }
 
 impl StrayTrial {
-    /// Trial at one frequency. `apart` are the distances between the points, as [`System::factor`] takes them, `away` those from the
-    /// place (m), the nearest first, and `values` the responses at the points, points x actuators, of mean square 1 + N. `None` if the
-    /// covariance matrix is singular.
+    /// Computes the errors at one frequency. `apart` are the distances between the points, as
+    /// [`System::factor`] takes them, `away` those from the place (m), the nearest first, and `values` the
+    /// responses at the points, points x actuators, of mean square 1 + N. `None` if the covariance matrix is
+    /// singular.
     ///
     /// A point i left out differs from what the others predict by (K + N)⁻¹ y over the diagonal element of that inverse, and by the
     /// reciprocal of the latter in mean square (Rasmussen and Williams 2006, eqs. 5.10 to 5.12). The covariances K = K₀ + n D are linear in
@@ -69,11 +73,13 @@ impl StrayTrial {
         Some(trial)
     }
 
-    /// Expected power of the error over the field's at the frequencies of `trials`, with the share of stray waves, 0 or more, with which
-    /// the points around are off by as much as expected.
+    /// Expected power of the interpolation error relative to the field's, at the frequencies of `trials`.
+    /// The share of stray waves, 0 or more, is chosen so that the points around differ from their
+    /// predictions by as much as expected.
     pub fn shares(trials: &[Self]) -> Vec<f64> {
         let near = |n: usize| &trials[n.saturating_sub(BESIDE)..(n + BESIDE + 1).min(trials.len())];
-        // Least squares: a frequency at which the expected squares hardly grow with the share tells little of it.
+        // Least squares: a frequency at which the expected squares hardly grow with the share contains
+        // little information about it.
         let more = |n: usize| {
             let sum =
                 |of: fn(&Self) -> f64| near(n).iter().map(|trial| trial.off_slope * of(trial)).sum::<f64>();

@@ -9,7 +9,8 @@ pub(crate) fn distances(points: &[Point]) -> Vec<f64> {
     points.iter().enumerate().flat_map(|(i, p)| points[..i].iter().map(|q| p.distance(*q))).collect()
 }
 
-/// Values at the distances between `points` points, which [`distances`] gave, below the diagonal of a matrix; 0 elsewhere.
+/// Matrix with `value` of each distance between `points` points below its diagonal, and 0 elsewhere;
+/// `distances` come from [`distances`].
 pub(crate) fn lower_triangle(distances: &[f64], points: usize, value: impl Fn(f64) -> f64) -> Mat<f64> {
     let mut lower = Mat::zeros(points, points);
     let mut from = distances.iter();
@@ -28,8 +29,8 @@ pub(crate) struct System {
 }
 
 impl System {
-    /// Cholesky's factor for `points` points of these mutual distances (m, lower triangle row by row); `None` if the
-    /// matrix is singular.
+    /// Computes the Cholesky factor for `points` points with these mutual distances (m, lower triangle row
+    /// by row); `None` if the matrix is singular.
     pub fn factor(waves: &Waves, line: &SpectralLine, distances: &[f64], points: usize) -> Option<Self> {
         let mut lower = lower_triangle(distances, points, |distance| waves.covariance(line, distance));
         (0..points).for_each(|i| lower[(i, i)] = 1.0 + line.error);

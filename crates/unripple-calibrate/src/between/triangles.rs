@@ -33,8 +33,8 @@ impl Triangles {
         Self { mesh }
     }
 
-    /// Indices and barycentric weights of the corners of the triangle around a place; beyond the hull, those of the
-    /// two ends of its nearest edge.
+    /// Indices and barycentric weights of the corners of the triangle that contains a place; for a place
+    /// beyond the convex hull, those of the two ends of the hull's nearest edge.
     pub fn weights(&self, place: Point) -> Vec<(usize, f64)> {
         let at = Point2::new(place.x, place.y);
         let mut corners = Vec::new();

@@ -1,10 +1,10 @@
-//! Drives scaled so that the peak stays level while tension drifts.
+//! Drives scaled so that the peak velocity at the focus stays constant while tension drifts.
 
 use crate::CalibrateError;
 use unripple_core::{ModalResponses, Point, require};
 use unripple_physics::sample;
 
-/// Holds the peak of a focus at one level while tension changes.
+/// Scales drives so that the peak velocity at the focus stays constant while tension changes.
 ///
 /// A drive at its limit makes a different peak velocity when the tension is different. The first drive is therefore scaled to a
 /// level a little below the limit (the headroom), and each later one so that it makes the same peak. The peak at place A and
@@ -42,15 +42,16 @@ pub struct Hold {
 pub struct Held {
     /// Predicted velocity at the focus, in m/s, with its sign.
     pub predicted: f64,
-    /// Factor that the drive was multiplied by.
+    /// Factor by which the drive was multiplied.
     pub gain: f64,
-    /// Whether the limit of the drive keeps the peak below the level that is held.
+    /// Whether the peak stays below the constant level because the drive is at its limit.
     pub short: bool,
 }
 
 impl Hold {
-    /// A hold for a limit of the drive's largest value, in the drive's unit. `headroom` is the share of it (0 to 1) that the first
-    /// drive leaves free; 0.05 is enough for ±5 % of tension.
+    /// A scaler for drives whose samples may have a magnitude of at most `limit`, in the drive's unit.
+    /// `headroom` is the share of the limit (0 to 1) that the first drive leaves unused; 0.05 is enough for
+    /// ±5 % of tension.
     ///
     /// # Errors
     /// [`CalibrateError::Range`] for a limit that is not positive or a headroom that is no share.
@@ -60,14 +61,15 @@ impl Hold {
         Ok(Self { limit, headroom, wanted: None })
     }
 
-    /// Peak velocity that is held, in m/s: that of the first drive that moves its focus. `None` before there was one.
+    /// Peak velocity that is kept constant, in m/s: that of the first drive that moves its focus; `None`
+    /// before that drive.
     pub fn level(&self) -> Option<f64> {
         self.wanted
     }
 
-    /// Scales a drive, `[channel][sample]`, so that it makes the peak velocity that is held. The first drive, scaled to the limit
-    /// less the headroom, sets that velocity. The peak is the velocity at `at` and sample `instant`, predicted by `responses` under
-    /// the present tension.
+    /// Scales a drive, `[channel][sample]`, so that it makes the peak velocity that is kept constant. The
+    /// first drive, scaled to the limit less the headroom, sets that velocity. The peak is the velocity at
+    /// `at` and sample `instant`, predicted by `responses` under the present tension.
     ///
     /// # Errors
     /// [`CalibrateError::Count`] for another number of channels than actuators, [`CalibrateError::Range`] for samples that are

@@ -14,15 +14,16 @@ pub use warp::Warp;
 use crate::CalibrateError;
 use unripple_core::require;
 
-/// Options of the drift filter: noise, range, speed and wander of the tension.
+/// Options of the Kalman filter that tracks tension: noise of the sensors; range, rate and random walk of
+/// the tension.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracking {
     /// Root mean square of the noise on each sensor, in its unit.
     pub noise: f64,
     /// Rms error of the model, as a share of the rms of the sensors' signals.
     pub model: f64,
-    /// Largest departure from nominal tension that is searched, as a share; also the standard deviation of the
-    /// tension before the first observation.
+    /// Largest deviation from nominal tension that is searched, as a share of it; also the standard
+    /// deviation of the tension before the first observation.
     pub range: f64,
     /// Standard deviation of the rate of change of tension before the first observation, as a share of the tension
     /// per second.
@@ -62,7 +63,7 @@ impl Tracking {
 pub enum Drift {
     /// The model with some tension explains the sensors' signals.
     Followed {
-        /// Tension over that at calibration, a ratio, at the end of the observation.
+        /// Ratio of the tension to that at calibration, at the end of the observation.
         tension: f64,
         /// Standard error of `tension`.
         error: f64,
@@ -75,7 +76,7 @@ pub enum Drift {
     },
     /// No tension explains the sensors' signals: the surface should be calibrated again.
     Unexplained {
-        /// Tension over that at calibration, predicted from earlier observations.
+        /// Ratio of the tension to that at calibration, predicted from earlier observations.
         tension: f64,
         /// Smallest rms residual found, relative to noise and model error.
         excess: f64,
@@ -85,7 +86,7 @@ pub enum Drift {
 }
 
 impl Drift {
-    /// Tension over that at calibration, a ratio.
+    /// Ratio of the tension to that at calibration.
     pub fn tension(&self) -> f64 {
         match self {
             Self::Followed { tension, .. } | Self::Unexplained { tension, .. } => *tension,

@@ -1,4 +1,4 @@
-//! The weak test signal, sent between effects, by which tension is followed.
+//! The weak test signal, sent between effects, from which the tension is tracked.
 
 use crate::CalibrateError;
 use rayon::prelude::*;
@@ -11,8 +11,8 @@ use unripple_linalg::{Mat, product};
 /// take four times as long and find the loudest place a little better.
 const DENSE: f64 = 2.0;
 
-/// Samples per period at the top of the band at which the level is computed. A peak between two samples is missed by 13
-/// % at most, about 1 dB; twice as many take twice as long.
+/// Number of samples per period of the highest frequency at which the level is computed. A peak between two
+/// samples is missed by 13 % at most, about 1 dB; twice as many take twice as long.
 const FINE: f64 = 6.0;
 
 /// Duration of the fade-in and of the fade-out, in s. A shorter one spreads the signal over frequencies that are felt; a
@@ -139,7 +139,8 @@ impl Ping {
     }
 }
 
-/// The strongest sensation of a drive, in units of the threshold, and where it is.
+/// The largest threshold-weighted displacement that a drive causes, in units of the threshold, and its
+/// place.
 fn felt_most(responses: &ModalResponses, drive: &[Vec<f64>], threshold: &Threshold) -> (f64, Point) {
     let conditions = &responses.conditions;
     let slowest = responses.poles.iter().map(|pole| pole.sigma).fold(f64::INFINITY, f64::min).max(1.0);

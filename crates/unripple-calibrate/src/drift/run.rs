@@ -12,7 +12,7 @@ const EVEN: f64 = 5e-3;
 pub(super) struct Sheet {
     /// Decay rate and angular frequency of each mode at nominal tension.
     pub poles: Vec<Pole>,
-    /// Bending's share of each mode's elastic energy, 0 to 1.
+    /// Share of bending in each mode's elastic energy, 0 to 1.
     pub shares: Vec<f64>,
     /// Input weights, modes x channels.
     pub input: Mat<f64>,
@@ -20,7 +20,7 @@ pub(super) struct Sheet {
     pub sense: Mat<f64>,
     /// Samples per second.
     pub rate: f64,
-    /// Samples between two compared instants after the drive has ended.
+    /// Distance, in samples, between the instants at which signals are compared after the drive has ended.
     pub stride: usize,
 }
 
@@ -28,21 +28,21 @@ pub(super) struct Sheet {
 /// over the samples around it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Instants {
-    /// Numbers of the samples at which the drift is computed, ascending.
+    /// Indices of the samples at which sensor signals are compared, ascending.
     pub at: Vec<usize>,
     /// Number of instants at the start of `at` that are single samples, not means.
     pub single: usize,
-    /// Samples on either side of each later instant that its mean includes.
+    /// Number of samples before and after each later instant that its mean includes.
     pub reach: usize,
 }
 
 impl Instants {
-    /// No instants: nothing is compared.
+    /// An empty list of instants, if no signals are compared.
     pub fn none() -> Self {
         Self { at: Vec::new(), single: 0, reach: 0 }
     }
 
-    /// Samples in a mean.
+    /// Number of samples in a mean.
     fn count(&self) -> f64 {
         (2 * self.reach + 1) as f64
     }
@@ -65,22 +65,23 @@ impl Instants {
 pub(super) struct Motion {
     /// Displacement of each mode, in its modal unit.
     pub moved: Vec<f64>,
-    /// Velocity of each mode, in that unit per second.
+    /// Velocity of each mode, in its modal unit per second.
     pub velocity: Vec<f64>,
 }
 
-/// Tension over a stretch of time: the ratio at its middle and its rate of change (1/s).
+/// Tension during an observation: its ratio to nominal at the middle of that time, and the ratio's rate of
+/// change (1/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Course {
-    /// Tension over nominal at the middle, a ratio.
+    /// Ratio of the tension to nominal at the middle of the observation.
     pub middle: f64,
     /// Rate of change of the tension's ratio, in 1/s.
     pub rate: f64,
 }
 
 impl Sheet {
-    /// The instants of `samples` samples that are compared: all while `drive`, `[channel][sample]`, lasts, then one
-    /// of every `stride`.
+    /// The instants, among `samples` samples, at which signals are compared: every sample while `drive`,
+    /// `[channel][sample]`, lasts, then one of every `stride`.
     pub fn instants(&self, drive: &[Vec<f64>], samples: usize) -> Instants {
         let driven =
             drive.iter().filter_map(|d| d.iter().rposition(|x| *x != 0.0)).max().map_or(0, |n| n + 1);
@@ -169,7 +170,7 @@ impl Sheet {
             .collect()
     }
 
-    /// The motion of a sheet at rest.
+    /// The modal motion of a sheet at rest: zeros.
     pub fn rest(&self) -> Motion {
         Motion { moved: vec![0.0; self.poles.len()], velocity: vec![0.0; self.poles.len()] }
     }

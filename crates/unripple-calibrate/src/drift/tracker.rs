@@ -68,7 +68,8 @@ pub struct Tracker {
     sheet: Sheet,
     options: Tracking,
     motion: Motion,
-    /// Ratio of the tension, by the model, at the end of the last observation, and its rate (1/s).
+    /// Ratio of the tension to the model's nominal one at the end of the last observation, and its rate
+    /// (1/s).
     state: [f64; 2],
     /// Model tension ratio of the calibrated surface, which is reported as 1.
     zero: f64,
@@ -76,7 +77,7 @@ pub struct Tracker {
     spread: [[f64; 2]; 2],
 }
 
-/// One observation, as the estimate needs it.
+/// One observation: drive and sensor signals.
 struct Heard<'a> {
     drive: &'a [Vec<f64>],
     samples: usize,
@@ -110,8 +111,8 @@ impl Tracker {
         Self::with_sensors(responses, bending_shares, &sense, options)
     }
 
-    /// As [`Tracker::new`], with other sensors: `sensors` holds the weights of the modes' velocities in the sensors' signals, sensors x
-    /// modes, one sensor per actuator.
+    /// A tracker for other sensors than those of [`Tracker::new`]: `sensors` holds the weights of the modes'
+    /// velocities in the sensors' signals, sensors x modes, one sensor per actuator.
     ///
     /// # Errors
     /// Those of [`Tracker::new`].
@@ -214,7 +215,8 @@ impl Tracker {
         Ok(self)
     }
 
-    /// Tension over that at calibration, predicted `ahead` seconds after the end of the last observation.
+    /// Ratio of the tension to that at calibration, predicted `ahead` seconds after the end of the last
+    /// observation.
     pub fn tension(&self, ahead: f64) -> f64 {
         self.ratio(ahead) / self.zero
     }

@@ -5,11 +5,12 @@ use std::f64::consts::TAU;
 use unripple_core::{CoreError, ModalResponses, Pole, SampledResponses};
 use unripple_physics::Medium;
 
-/// Length of the Fourier transform over that of the response, so that its end does not wrap into its beginning.
+/// Length of the Fourier transform relative to that of the response, so that the response's end does not
+/// wrap into its beginning.
 const PADDED: usize = 4;
 
-/// An oscillation under tension `ratio` times as large, bending's share of its elastic energy being `share`:
-/// `ω² = ω0² (1 + (ratio - 1)(1 - share))`, its decay as it was.
+/// An oscillation under tension `ratio` times as large, with `share` the share of bending in its elastic
+/// energy: `ω² = ω0² (1 + (ratio - 1)(1 - share))`, its decay rate unchanged.
 pub(super) fn tuned(pole: &Pole, share: f64, ratio: f64) -> Pole {
     Pole { omega: pole.omega * (1.0 + (ratio - 1.0) * (1.0 - share)).max(0.0).sqrt(), ..*pole }
 }
@@ -37,22 +38,24 @@ pub struct Warp {
 }
 
 impl Warp {
-    /// The warp of a medium at its nominal tension.
+    /// A transform of responses for waves in `medium`, whose tension is the nominal one.
     pub fn new(medium: &Medium) -> Self {
         Self { medium: *medium }
     }
 
-    /// Bending's share of the elastic energy of a wave of some angular frequency (rad/s) at nominal tension.
+    /// Share of bending in the elastic energy of a wave of angular frequency `omega` (rad/s) at nominal
+    /// tension.
     pub fn bending_share(&self, omega: f64) -> f64 {
         self.medium.bending_share(self.medium.wavenumber(omega))
     }
 
-    /// Where an angular frequency goes (rad/s) under tension `ratio` times as large.
+    /// The angular frequency (rad/s) to which `omega` (rad/s) changes when the tension is `ratio` times as
+    /// large.
     pub fn omega(&self, omega: f64, ratio: f64) -> f64 {
         tuned(&Pole::new(omega, 0.0), self.bending_share(omega), ratio).omega
     }
 
-    /// Modal responses under tension `ratio` times as large: new poles, all else as it was.
+    /// Modal responses under tension `ratio` times as large: their poles change, and nothing else.
     pub fn modal(&self, responses: &ModalResponses, ratio: f64) -> ModalResponses {
         let shares: Vec<f64> = responses.poles.iter().map(|pole| self.bending_share(pole.omega)).collect();
         warped(responses, &shares, ratio)
@@ -91,7 +94,8 @@ impl Warp {
         out
     }
 
-    /// All responses of a library under tension `ratio` times as large; `sigma` as in [`Warp::signal`].
+    /// All sampled responses under tension `ratio` times as large; `sigma` is the decay rate (1/s) for which
+    /// [`Warp::signal`] compensates.
     ///
     /// # Errors
     /// Those of [`SampledResponses::new`].
@@ -119,7 +123,8 @@ impl Warp {
     }
 }
 
-/// Modal responses under tension `ratio` times as large, with bending's share of each mode.
+/// Modal responses under tension `ratio` times as large, from the share of bending in each mode's elastic
+/// energy.
 pub(super) fn warped(responses: &ModalResponses, shares: &[f64], ratio: f64) -> ModalResponses {
     let poles = responses.poles.iter().zip(shares).map(|(pole, share)| tuned(pole, *share, ratio)).collect();
     ModalResponses { poles, ..responses.clone() }

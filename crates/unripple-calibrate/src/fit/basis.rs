@@ -13,8 +13,8 @@ use unripple_physics::{Accuracy, Entry, Footprint, Medium, Modes, Transducer, se
 /// Half the distance of the central difference for slopes of mode shapes, in metres: relative error 2e-7 for a wave of 1000 rad/m.
 const STEP: f64 = 1e-6;
 
-/// Relative accuracy of the natural frequencies, unless the surface has its own: far below what a fit can tell. A hundred times coarser, it
-/// would show in the residuals of a quiet recording.
+/// Relative accuracy of the natural frequencies, unless the surface specifies one: far below what a fit can
+/// resolve. A hundred times coarser, it would show in the residuals of a quiet recording.
 const ACCURACY: f64 = 1e-6;
 
 /// The nominal modes as a Ritz basis, with the stiffness of other tensions in their coordinates.
@@ -26,24 +26,28 @@ pub(super) struct Basis {
     pub medium: Medium,
     /// Squares of the nominal frequencies, (rad/s)².
     pub squares: Vec<f64>,
-    /// Stiffness of the nominal tension, modes x modes, in (rad/s)².
+    /// Stiffness due to the nominal tension, modes x modes, in (rad/s)².
     pub tension: Mat<f64>,
-    /// Stiffness of the tension along x less that along y.
+    /// Stiffness due to the nominal tension along x minus that due to the tension along y, modes x modes, in
+    /// (rad/s)².
     pub skew: Mat<f64>,
-    /// Stiffness of each term of the tension's profile.
+    /// Stiffness due to each term of the tension's profile with an amplitude of the nominal tension, modes x
+    /// modes, in (rad/s)².
     pub terms: Vec<Mat<f64>>,
-    /// Numbers of half waves along x and y in each term of the profile.
+    /// Numbers of half waves along x and y in each term of the tension's profile.
     pub waves: Vec<[u32; 2]>,
     /// The actuators, and their nominal places.
     pub transducers: Vec<(Transducer, Point)>,
-    /// The actuators that depend on frequency: exciters, and coils on a voltage with an inductance; `None` for all others.
+    /// The coil of each actuator whose force depends on frequency: exciters, and coils with an inductance
+    /// driven by a voltage; `None` for all others.
     pub coils: Vec<Option<Coil>>,
     /// Outline of the sheet.
     pub outline: Outline,
 }
 
 impl Basis {
-    /// The modes of a surface up to `max_hz`, and a profile of cosines with up to `order` half waves in all.
+    /// Computes the modes of a surface up to `max_hz`, and the stiffness of a tension profile of cosines
+    /// with up to `order` half waves along x and y together.
     pub fn new(surface: &Surface, max_hz: f64, order: usize) -> Result<Self, CalibrateError> {
         let modes = Modes::solve(surface, max_hz, Accuracy::of(surface.accuracy, ACCURACY))?;
         let medium = Medium::of(&surface.sheet);
@@ -90,8 +94,9 @@ impl Basis {
         Footprint { points: transducer.footprint.points.iter().map(moved).collect() }
     }
 
-    /// Natural logarithms of the actuators' nominal gains (force per unit of drive), the same as drives and as sensors; for a coil
-    /// driven by a voltage, that of its resistance alone, and for an exciter that of a housing that stands still.
+    /// Natural logarithms of the actuators' nominal gains (force per unit of drive, equal to those as
+    /// sensors): for a coil driven by a voltage with its resistance alone, for an exciter with its housing
+    /// at rest.
     pub fn gains(&self) -> Vec<f64> {
         let gain = |(t, _): &(Transducer, Point)| match (t.entry, t.load.as_ref().and_then(|l| l.circuit)) {
             (Entry::Voltage, Some(coil)) => t.gain / coil.resistance,
@@ -100,7 +105,8 @@ impl Basis {
         self.transducers.iter().map(|t| gain(t).abs().max(f64::MIN_POSITIVE).ln()).collect()
     }
 
-    /// The coil of an actuator, if it depends on frequency; stray loads have none.
+    /// The coil of load `number` if its force depends on frequency; `None` for other actuators and for stray
+    /// loads.
     pub fn coil(&self, number: usize) -> Option<&Coil> {
         self.coils.get(number).and_then(Option::as_ref)
     }
@@ -111,7 +117,7 @@ impl Basis {
     }
 }
 
-/// A term of the profile at a point.
+/// Value of a term of the tension's profile at a point.
 fn term([along, up]: [u32; 2], at: Point, (width, height): (f64, f64)) -> f64 {
     (f64::from(along) * PI * at.x / width).cos() * (f64::from(up) * PI * at.y / height).cos()
 }

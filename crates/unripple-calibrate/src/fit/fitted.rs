@@ -13,7 +13,8 @@ use unripple_core::{Conditions, ModalResponses, Point, Port, Responses, Surface}
 use unripple_linalg::{Mat, Scale};
 use unripple_physics::Medium;
 
-/// Smallest unexplained share of the measured signals, as amplitude, with which a model is called doubtful.
+/// Smallest unexplained share of the measured signals, as amplitude, at which a model is reported as
+/// doubtful.
 const DOUBTED: f64 = 0.1;
 
 /// Largest accepted distance of an unknown from its expected value, in standard deviations of its prior. Of values from a normal
@@ -27,13 +28,13 @@ const NEGATIVE: f64 = 0.2;
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// The value found, in SI.
+    /// The value found, in the quantity's SI unit.
     pub value: f64,
     /// Standard error of the value, from noise and residual, if the model is right; at most the standard deviation of its prior.
     pub error: f64,
 }
 
-/// An actuator, or a stray mass, as fitted.
+/// Fitted properties of an actuator, or of a stray mass (one that the surface file does not contain).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FittedLoad {
     /// Place on the surface, x and y, in metres.
@@ -42,8 +43,8 @@ pub struct FittedLoad {
     pub mass: Estimate,
     /// Damping to the ground, in N·s/m.
     pub damping: Estimate,
-    /// Gain of the drive, relative to nominal; 1 for a stray mass. A factor common to all drives cannot be told from its inverse on
-    /// all sensors.
+    /// Gain of the drive, relative to nominal; 1 for a stray mass. A factor common to all drives cannot be
+    /// distinguished from its inverse on all sensors.
     pub drive: Estimate,
     /// Gain of the sensor, relative to nominal; 1 for a stray mass.
     pub sense: Estimate,
@@ -58,7 +59,7 @@ pub enum Verdict {
     Doubtful {
         /// Share of the measured signals, as amplitude, that neither model nor noise explains.
         unexplained: f64,
-        /// Why, in words.
+        /// The reason for the doubt, in words.
         why: String,
     },
 }
@@ -80,15 +81,15 @@ pub struct Fitted {
     pub profile: Vec<([u32; 2], Estimate)>,
     /// Amplitude decay time (s) at some frequencies (Hz).
     pub decay: Vec<(f64, Estimate)>,
-    /// The actuators in channel order.
+    /// Fitted properties of the actuators, in channel order.
     pub actuators: Vec<FittedLoad>,
-    /// Masses found elsewhere on the sheet.
+    /// Stray masses found on the sheet, which the surface file does not contain.
     pub strays: Vec<FittedLoad>,
-    /// Latency that the responses between actuators still have, in s.
+    /// Remaining latency of the responses between actuators, in s.
     pub late: Estimate,
-    /// Rms residual, relative to the noise: 1 for a perfect model.
+    /// Rms residual of the fit, relative to the noise: 1 for a perfect model.
     pub excess: f64,
-    /// Rms residual, relative to the rms of the measured signals.
+    /// Rms residual of the fit, relative to the rms of the measured signals.
     pub residual: f64,
     unexplained: f64,
     /// Whether the model explains the measurement.
@@ -114,7 +115,7 @@ struct Answers<'a> {
 impl Answers<'_> {
     fn of(&self, unknown: Unknown) -> Estimate {
         let place = self.case.layout.unknowns().iter().position(|u| *u == unknown);
-        // What nothing was measured of is as uncertain as before.
+        // An unknown without measurements is as uncertain as its prior.
         let variance = place.map_or(1.0, |place| self.variances[place].max(0.0));
         let error = variance.sqrt() * self.case.layout.spread(unknown);
         Estimate { value: *self.found.values.clone().of(unknown), error }
@@ -255,7 +256,7 @@ impl Fitted {
         &self.responses
     }
 
-    /// This model with only the actuators of these indices.
+    /// This model restricted to the actuators of these indices.
     pub(crate) fn among(&self, actuators: &[usize]) -> Self {
         let part = |responses: &ModalResponses| ModalResponses {
             ports: actuators.iter().map(|a| responses.ports[*a].clone()).collect(),
@@ -321,8 +322,9 @@ impl Fitted {
         self.unexplained
     }
 
-    /// A tracker of the tension, relative to that at calibration, with this model. The share that the model leaves unexplained counts
-    /// as its error, if it is larger than that of the options.
+    /// A tracker of the tension, relative to that at calibration, that uses this model. The model error of
+    /// the options is raised to the share of the signals that the model leaves unexplained, if that is
+    /// larger.
     ///
     /// # Errors
     /// Those of [`Tracker::with_sensors`].

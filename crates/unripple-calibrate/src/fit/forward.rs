@@ -8,17 +8,18 @@ use std::f64::consts::TAU;
 use unripple_core::Shapes;
 use unripple_linalg::{Accum, Lu, Mat, MatRef, Par, c64, multiply, product};
 
-/// Frequencies that one task of the thread pool works on: enough for its set-up, few enough that no thread waits long
-/// for another at the end.
+/// Number of frequencies in one task of the thread pool: enough to outweigh its set-up, few enough that no
+/// thread waits long for another at the end.
 const CHUNK: usize = 8;
 
 /// The admittance (velocity at every place per force at every place, places x places, in m/s/N) at one complex
 /// frequency, with its derivatives by the unknowns.
 #[derive(Clone, Debug)]
 pub(super) struct Answer {
-    /// Places x places, in m/s/N.
+    /// The admittance, places x places, in m/s/N.
     pub admittance: Mat<c64>,
-    /// Derivatives of the admittance by each unknown that the sheet's responses depend on, in the order of `Layout::unknowns`.
+    /// Derivatives of the admittance by each unknown on which the sheet's responses depend, in the order of
+    /// `Layout::unknowns`.
     pub derivatives: Vec<Mat<c64>>,
 }
 
@@ -44,7 +45,7 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// The change of the admittance that a mass (kg) at each candidate makes, in place of the derivatives.
+    /// The admittance, with its changes by a mass (kg) at each candidate place in the field `derivatives`.
     pub fn with(&self, mass: f64) -> Answer {
         let places = self.admittance.nrows();
         let change = |c: usize| {

@@ -8,10 +8,12 @@ use unripple_physics::Medium;
 /// the lowest modes are too few to determine more.
 pub(super) const KNOTS: [f64; 5] = [0.0625, 0.125, 0.25, 0.5, 1.0];
 
-/// Standard deviations of the priors around the nominal values. In order: logarithm of tension, logarithm of bending stiffness,
-/// anisotropy as a share, each term of the profile with one half wave as a share, logarithm of decay rates, place of an actuator
-/// (m), logarithm of gains, mass (kg), least damping (N·s/m), place of a stray mass (m), logarithm of the gain common to all sensors,
-/// latency (s). Twice as much leaves an unknown freer by that, half as much holds it nearer to the surface file.
+/// Standard deviations of the priors around the nominal values. In order: logarithm of tension, logarithm of
+/// bending stiffness, anisotropy as a share, each term of the profile with one half wave as a share,
+/// logarithm of decay rates, place of an actuator (m), logarithm of gains, mass (kg), least damping (N·s/m),
+/// place of a stray mass (m), logarithm of the gain common to all sensors, latency (s). Doubled, a standard
+/// deviation lets the unknown deviate twice as far; halved, it keeps the unknown nearer to the value in the
+/// surface file.
 const TENSION: f64 = 0.1;
 const BENDING: f64 = 0.1;
 const SKEW: f64 = 0.02;
@@ -25,8 +27,8 @@ const STRAY: f64 = 10e-3;
 const LEVEL: f64 = 0.2;
 const LATE: f64 = 2e-5;
 
-/// Damping that may be expected, as a share of the sheet's own impedance at a point: what is fixed to a stiff plate is sturdier than what
-/// a film bears.
+/// Damping to be expected, as a share of the sheet's driving-point impedance: what is fixed to a stiff plate
+/// is sturdier than what a film can carry.
 const DAMPED: f64 = 0.01;
 
 /// The prior of a damping on a sheet, one standard deviation, in N·s/m, from the impedance of a point of the unbounded sheet at the top
@@ -36,15 +38,15 @@ pub(super) fn damping(medium: &Medium, top: f64) -> f64 {
     (DAMPED * 4.0 * medium.areal_density * medium.group_celerity(k) / k).max(RESISTANCE)
 }
 
-/// The unknowns of a fit, and the place of each in their vector.
+/// The unknowns of a fit, and their order in the vector of unknowns.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
     /// Number of actuators.
     pub actuators: usize,
-    /// Indices of actuators of which nothing was measured. Their places and gains are no unknowns: free, such a place would become that of
-    /// a stray mass.
+    /// Indices of actuators without measured responses. Their places and gains are not unknowns: the fit
+    /// would move a free place to that of a stray mass.
     pub silent: Vec<usize>,
-    /// Numbers of half waves along x and y in each term of the profile.
+    /// Numbers of half waves along x and y in each term of the tension's profile.
     pub waves: Vec<[u32; 2]>,
     /// Number of stray masses.
     pub strays: usize,
@@ -60,7 +62,7 @@ pub(super) enum Unknown {
     Skew,
     Term(usize),
     Knot(usize),
-    /// Coordinate of an actuator or stray mass: its number, then 0 for x or 1 for y.
+    /// Coordinate of an actuator or stray mass: the load's number, then 0 for x or 1 for y.
     Place(usize, usize),
     Mass(usize),
     Resistance(usize),
@@ -79,7 +81,7 @@ pub(super) struct Values {
     pub bending: f64,
     /// Half the difference of the tensions along x and y, over their mean.
     pub skew: f64,
-    /// Each term of the tension's profile, as a share of the mean.
+    /// Amplitude of each term of the tension's profile, as a share of the mean tension.
     pub profile: Vec<f64>,
     /// Logarithm of the decay rate (1/s) at each knot.
     pub knots: Vec<f64>,
@@ -100,12 +102,12 @@ pub(super) struct Values {
 }
 
 impl Layout {
-    /// Number of actuators and stray loads.
+    /// Number of loads on the sheet: actuators and stray masses.
     pub fn loaded(&self) -> usize {
         self.actuators + self.strays
     }
 
-    /// Every unknown in order. Those that the sheet's responses depend on come first.
+    /// All unknowns in the order of their vector; those on which the sheet's admittance depends come first.
     pub fn unknowns(&self) -> Vec<Unknown> {
         use Unknown::*;
         let loaded = 0..self.loaded();
@@ -125,8 +127,7 @@ impl Layout {
         all
     }
 
-    /// The prior of an unknown: how far it is expected to be from its nominal value, one standard deviation, in its
-    /// own unit.
+    /// Standard deviation of an unknown's prior around its nominal value, in the unknown's unit.
     pub fn spread(&self, unknown: Unknown) -> f64 {
         match unknown {
             Unknown::Tension => TENSION,
@@ -151,12 +152,14 @@ impl Layout {
 }
 
 impl Values {
-    /// Product of the gains of one actuator's drive and another's sensor, in SI units.
+    /// Product of the gains of the drive of actuator `driven` and the sensor of actuator `heard`, in SI
+    /// units.
     pub fn gain(&self, driven: usize, heard: usize) -> f64 {
         (self.drive[driven] + self.sense[heard] + self.level).exp()
     }
 
-    /// The value of an unknown, to be read or changed: in SI, a logarithm or a share as [`Values`] has it.
+    /// Mutable reference to the value of an unknown, in the unit of its field of [`Values`]: SI, or a
+    /// logarithm or share.
     pub fn of(&mut self, unknown: Unknown) -> &mut f64 {
         match unknown {
             Unknown::Tension => &mut self.tension,
@@ -176,7 +179,8 @@ impl Values {
     }
 }
 
-/// Weights of the two knots around a frequency, as a share of the band's top: linear in the logarithm, constant beyond both ends.
+/// Weights of the two knots around a frequency that is given as a share of the band's top: linear in the
+/// logarithm, constant beyond both ends.
 pub(super) fn around(share: f64) -> [(usize, f64); 2] {
     let above = KNOTS.partition_point(|knot| *knot <= share);
     match above {

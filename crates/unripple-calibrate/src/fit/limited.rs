@@ -15,22 +15,23 @@ use unripple_linalg::{Mat, c64};
 /// [`Measured`](super::Measured) assumes.
 const ACCURACY: f64 = 1e-6;
 
-/// Samples before time 0 in which the early ringing of the band's edges is computed. Still earlier it has decayed; more samples
-/// change nothing.
+/// Number of samples before time 0 in which the early ringing of the band's edges is computed. Still earlier
+/// it has decayed, so that more samples change nothing.
 const BEFORE: usize = 64;
 
-/// Responses between actuators by a model, in the order of [`Pairs`](super::Pairs), from time 0 on.
+/// A model's responses between actuators, in the order of [`Pairs`](super::Pairs), from time 0 on.
 #[derive(Clone, Debug)]
 pub(crate) struct Limited {
     /// The model's responses, not limited to a band, `[pair][sample]`.
     pub whole: Vec<Vec<f64>>,
-    /// The same responses as they would be measured, `[pair][sample]`: limited to a band by a zero-phase filter, delayed by `late`,
-    /// and cut off before time 0.
+    /// The responses `whole` as they would be measured, `[pair][sample]`: limited to a band by a zero-phase
+    /// filter, delayed by `late`, and cut off before time 0.
     pub cut: Vec<Vec<f64>>,
     /// Latency of the responses `cut`, in s.
     pub late: f64,
-    /// An impulse and its odd derivatives ([`DERIVATIVES`]), limited, delayed and cut off like `cut`, `[derivative][sample]`: all
-    /// that is measured of modes far above the band.
+    /// An impulse and its odd derivatives ([`DERIVATIVES`]), limited, delayed and cut off like `cut`,
+    /// `[derivative][sample]`: combinations of these are all that a band-limited measurement contains of
+    /// modes far above the band.
     pub far: Vec<Vec<f64>>,
 }
 
@@ -75,8 +76,8 @@ impl Limited {
     }
 }
 
-/// A response as it would be measured: limited to `band` by a zero-phase filter, delayed by `late` seconds, and without what then
-/// precedes time 0.
+/// A response as it would be measured: limited to `band` by a zero-phase filter, delayed by `late` seconds,
+/// and cut off before time 0.
 pub(super) fn through(
     band: Band,
     response: &[f64],

@@ -18,7 +18,7 @@ pub(super) struct LoadedModes {
     pub poles: Vec<Pole>,
     /// Share of bending in the elastic energy of each mode, 0 to 1.
     pub bending_shares: Vec<f64>,
-    /// Weights of the actuators, actuators x modes.
+    /// Weights of the modes at the actuators, actuators x modes.
     pub weights: Mat<f64>,
     /// Shapes of the modes, mass-normalised, anywhere on the sheet.
     pub shapes: Arc<dyn Shapes>,
@@ -48,10 +48,11 @@ impl Shapes for Combined {
 }
 
 impl LoadedModes {
-    /// Modes within `band` (Hz): eigenvectors of the stiffness K with the mass 1 + Σ μ b bᵀ, where μ is the mass of a load and b holds the
-    /// modes' values at it. At each load one more coordinate stands for the modes that are left out. Dampers, the inductances of coils
-    /// and the housings of exciters are added to each mode in first order, as is right for light ones, and for housings whose resonance
-    /// is below the modes; negative masses count as zero.
+    /// Modes within `band` (Hz): eigenvectors of the stiffness K with the mass 1 + Σ μ b bᵀ, where μ is the
+    /// mass of a load and b holds the modes' values at it. At each load one more coordinate represents the
+    /// modes that are left out. Dampers, the inductances of coils and the housings of exciters are added to
+    /// each mode in first order, as is right for light ones, and for housings whose resonance is below the
+    /// modes; negative masses count as zero.
     pub fn new(
         basis: &Basis,
         system: &System,

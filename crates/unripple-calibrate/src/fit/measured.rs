@@ -1,4 +1,4 @@
-//! Measured responses that a model is fitted to, and their noise.
+//! Measured responses to which a model is fitted, and their noise.
 
 use crate::CalibrateError;
 use crate::signals::Band;
@@ -9,12 +9,13 @@ use unripple_dsp::median;
 /// latency.
 const FLOOR: f64 = 1e-3;
 
-/// Measured data that a model is fitted to: responses between a surface's actuators, taps recorded by them, or both.
+/// Measured data to which a model is fitted: responses between a surface's actuators, taps recorded by the
+/// actuators, or both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// Samples per second.
     pub rate: f64,
-    /// Responses from actuator to actuator.
+    /// Responses from actuator to actuator; `None` if only taps were measured.
     pub pairs: Option<Pairs>,
     /// Taps at known places.
     pub taps: Vec<Tap>,
@@ -28,24 +29,24 @@ pub struct Pairs {
     pub responses: Vec<Vec<f64>>,
     /// Root mean square of the noise on each sample, taken as white up to half the rate, in the responses' unit.
     pub noise: f64,
-    /// Band that the responses were limited to by a zero-phase filter, after which all before time 0 was cut off, as
-    /// [`Session`](crate::measure::Session) measures them; `None` if they are not limited.
+    /// Band to which the responses were limited by a zero-phase filter, before everything earlier than time
+    /// 0 was cut off, as [`Session`](crate::measure::Session) measures them; `None` if they are not limited.
     pub limited: Option<Band>,
 }
 
 /// A tap at a known place, recorded by every actuator as a sensor. The force's shape and strength are unknown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tap {
-    /// Where the tap was, in m.
+    /// Place of the tap on the surface, in m.
     pub at: Point,
-    /// The sensor signal of each actuator, all of one length, the tap somewhere near the beginning.
+    /// The sensor signal of each actuator, all of one length, with the tap somewhere near the beginning.
     pub heard: Vec<Vec<f64>>,
     /// Root mean square of the noise on each sample, taken as white up to half the rate, in the signals' unit.
     pub noise: f64,
 }
 
 impl Measured {
-    /// Indices of those of `count` actuators of which nothing was measured, neither as drive nor as sensor.
+    /// Indices of those of `count` actuators that were not measured, neither as drive nor as sensor.
     pub(super) fn silent(&self, count: usize) -> Vec<usize> {
         let says = |signal: &Vec<f64>| signal.iter().any(|x| *x != 0.0);
         let pairs = || self.pairs.iter().flat_map(|pairs| pairs.responses.iter().enumerate());
@@ -54,14 +55,16 @@ impl Measured {
         (0..count).filter(|a| !paired(*a) && !tapped(*a)).collect()
     }
 
-    /// Responses between actuators alone, in the order of [`Pairs::responses`]: `rate` in Hz, `noise` as in [`Pairs::noise`].
+    /// Measured data that consist of responses between actuators only, in the order of [`Pairs::responses`];
+    /// `rate` in Hz, `noise` as in [`Pairs::noise`].
     pub fn pairs(rate: f64, responses: Vec<Vec<f64>>, noise: f64) -> Self {
         Self { rate, pairs: Some(Pairs { responses, noise, limited: None }), taps: Vec::new() }
     }
 
-    /// Responses between actuators, in the order of [`Pairs::responses`], with the noise estimated from reciprocity: `h_ij` and
-    /// `h_ji` differ by gains and noise alone. The noise is the median over all pairs, at least -60 dB relative to the responses,
-    /// given as white noise that has the same density as within `band` (Hz), where the signals are.
+    /// Responses between actuators, in the order of [`Pairs::responses`], with the noise estimated from
+    /// reciprocity: `h_ij` and `h_ji` differ by gains and noise alone. The noise is the median over all
+    /// pairs, at least -60 dB relative to the responses, expressed as white noise up to half the rate with
+    /// the density found within `band` (Hz), where the signals are.
     ///
     /// # Errors
     /// [`CalibrateError::Count`] without two actuators measured in both directions, [`CalibrateError::Range`] for an empty band.
@@ -101,8 +104,8 @@ impl Measured {
         Ok(Self::pairs(rate, responses, noise.max(f64::MIN_POSITIVE)))
     }
 
-    /// These data with a measured noise, rms on each sample, for the responses between actuators; it is at least -60 dB relative to
-    /// their rms.
+    /// These data with the noise of the responses between actuators replaced by a measured one, rms on each
+    /// sample, but at least -60 dB relative to the rms of the responses.
     #[must_use]
     pub fn with_noise(mut self, noise: f64) -> Self {
         if let Some(pairs) = &mut self.pairs {
@@ -121,7 +124,7 @@ impl Measured {
         self
     }
 
-    /// Data of taps alone, recorded at `rate` samples per second.
+    /// Measured data that consist of taps only, recorded at `rate` samples per second.
     pub fn taps(rate: f64, taps: Vec<Tap>) -> Self {
         Self { rate, pairs: None, taps }
     }

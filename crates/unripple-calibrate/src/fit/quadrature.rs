@@ -7,7 +7,8 @@ use unripple_physics::Footprint;
 const DENSE: f64 = 0.6;
 const MORE: f64 = 12.0;
 
-/// Parts of a cell along each side, by which the share of it inside the outline is counted.
+/// Number of parts into which a cell is divided along each side, to count the share of it inside the
+/// outline.
 const PARTS: usize = 4;
 
 /// Points and weights (m²) of an integral over an outline of functions with wavenumbers up to `k` (rad/m).

@@ -17,14 +17,15 @@ const FASTEST: f64 = 0.45;
 /// model.
 #[derive(Clone, Debug)]
 pub(super) struct Reached {
-    /// All modes that can be sampled. Those above the measurement's band contribute their compliance.
+    /// Modal responses of all modes that the sample rate can represent. Those above the measurement's band
+    /// contribute their compliance.
     pub responses: ModalResponses,
     /// The band of the measurement.
     pub band: Band,
 }
 
 impl Reached {
-    /// The model limited to `band`, which may extend above the surface's own.
+    /// The model limited to `band`, which may extend above the surface's band.
     pub fn of(model: &ModalResponses, band: Band) -> Self {
         let most = TAU * FASTEST * model.conditions.rate;
         let kept: Vec<usize> = (0..model.poles.len()).filter(|m| model.poles[*m].omega < most).collect();
@@ -34,7 +35,7 @@ impl Reached {
         Self { responses: ModalResponses { input, poles, shapes, ..model.clone() }, band }
     }
 
-    /// This model with changed responses of the same modes.
+    /// This model with its responses replaced by `change` of them; the modes must stay the same.
     pub fn with(&self, change: impl Fn(&ModalResponses) -> ModalResponses) -> Self {
         Self { responses: change(&self.responses), band: self.band }
     }

@@ -10,36 +10,38 @@ use crate::CalibrateError;
 use rayon::prelude::*;
 use unripple_linalg::{Mat, c64};
 
-/// Model less measurement, in standard deviations of the noise, and its derivatives by the unknowns, each in standard deviations
-/// of its prior.
+/// Residual of a fit, model minus measurement, in standard deviations of the noise, and its derivatives by
+/// the unknowns, each in standard deviations of its prior.
 #[derive(Clone, Debug)]
 pub(super) struct Residual {
-    /// Model less measurement, whitened: in standard deviations of the noise.
+    /// Model minus measurement, whitened: in standard deviations of the noise.
     pub values: Vec<f64>,
-    /// Derivatives of `values` by the unknowns, each in standard deviations of its prior: values x unknowns; empty unless asked for.
+    /// Derivatives of `values` by the unknowns, each in standard deviations of its prior: values x unknowns;
+    /// empty unless requested.
     pub slopes: Mat<f64>,
     /// Number of independent real data, before the number of unknowns is subtracted.
     pub data: f64,
     /// Sum of squares of the measurement, in squared standard deviations of the noise.
     pub power: f64,
-    /// Squares of residual and measurement, line by line of every response's spectrum.
+    /// Squared magnitudes of residual and measurement, `[line][2]`, at every spectral line of every
+    /// response.
     pub lines: Vec<[f64; 2]>,
-    /// For each row the number of its response or tap, and of its frequency.
+    /// For each row of `values`, the index of its response or tap and the index of its frequency.
     pub belongs: Vec<[usize; 2]>,
 }
 
-/// The parts of a residual: the basis, the unknowns, the measured spectra.
+/// Everything from which residuals are computed: the nominal modes, the unknowns, the measured spectra.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Case<'a> {
     /// The nominal modes.
     pub basis: &'a Basis,
-    /// The vector of unknowns: which there are, and in which order.
+    /// The unknowns of the fit, and their order in the vector of unknowns.
     pub layout: &'a Layout,
     /// The measured spectra.
     pub spectra: &'a Spectra,
     /// Number of nominal modes used.
     pub count: usize,
-    /// The band's top, in Hz.
+    /// Highest frequency of the band, in Hz.
     pub top: f64,
 }
 
@@ -49,14 +51,14 @@ impl Case<'_> {
         System::new(self.basis, self.layout, values, &self.spectra.places, (self.count, self.top))
     }
 
-    /// The residual alone.
+    /// Computes the residual without derivatives.
     pub fn residual(&self, values: &Values) -> Result<Residual, CalibrateError> {
         let answers = self.system(values)?.admittances(&self.spectra.frequencies);
         let answers = answers.into_iter().map(|y| Answer { admittance: y, derivatives: Vec::new() });
         Ok(self.compared(values, &answers.collect::<Vec<_>>(), false))
     }
 
-    /// The residual with its derivatives.
+    /// Computes the residual with its derivatives by the unknowns.
     pub fn linear(&self, values: &Values) -> Result<Residual, CalibrateError> {
         let answers = self.system(values)?.answers(self.basis, &self.spectra.frequencies);
         Ok(self.compared(values, &answers, true))
@@ -85,12 +87,14 @@ impl Case<'_> {
         }
     }
 
-    /// The derivatives in answers as columns, in standard deviations of the noise.
+    /// Derivatives of the residual, in standard deviations of the noise, from those of the admittances in
+    /// `answers`: one column per unknown.
     pub fn columns(&self, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Mat<f64> {
         columns(&self.blocks(values, answers, unknowns), unknowns.len())
     }
 
-    /// The rows of the residual for every response and every tap on the surface, with derivatives where unknowns are given.
+    /// The rows of the residual for every response and every tap on the surface, with their derivatives by
+    /// `unknowns`.
     pub fn blocks(&self, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Vec<Block> {
         let (pairs, taps) = (self.spectra.pairs.len(), self.spectra.taps.len());
         (0..pairs + taps)
@@ -192,11 +196,11 @@ impl Case<'_> {
     }
 }
 
-/// Rows of one response or tap.
+/// Rows of the residual that belong to one response or tap.
 pub(super) struct Block {
-    /// Model less measurement, in standard deviations of the noise.
+    /// Model minus measurement, in standard deviations of the noise.
     pub values: Vec<f64>,
-    /// Derivatives of `values`, a column for each unknown that was asked for.
+    /// Derivatives of `values`, one column for each requested unknown.
     pub columns: Vec<Vec<f64>>,
     lines: Vec<[f64; 2]>,
     data: f64,

@@ -16,7 +16,8 @@ use unripple_physics::{Medium, Transducer};
 /// Options of a fit: band, tension profile, stray masses, window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitOptions {
-    /// Frequencies that are fitted, in Hz; up to 0.97 of the surface's own band where `None`.
+    /// Lowest and highest frequency that is fitted, in Hz; if `None`, the band of the surface up to 0.97 of
+    /// its top.
     pub band: Option<[f64; 2]>,
     /// Largest number of half waves, along x and y together, in a term of the tension's profile; 0 for uniform tension.
     pub profile: usize,
@@ -47,12 +48,12 @@ const FIRST: f64 = 3.5;
 /// costs more fits.
 const WIDER: f64 = 1.6;
 
-/// Fits of the whole band before the last one, for responses limited to a band: what that removed from them is computed from the
-/// model.
+/// Number of fits of the whole band before the last one, for responses limited to a band: the part that the
+/// limit removed is computed from the model, and so improves with it.
 const AGAIN: usize = 1;
 
-/// Smallest residual relative to noise at which stray masses are searched, and (`WORTH`) the largest factor by which the residual
-/// must fall for one to be kept.
+/// Smallest residual relative to noise at which stray masses are searched, and (`WORTH`) the largest ratio
+/// of the residual with a stray mass to that without at which the mass is kept.
 const SUSPECT: f64 = 1.5;
 const WORTH: f64 = 0.85;
 
@@ -142,8 +143,8 @@ struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    /// Searches starting values with the lowest modes: each of the likeliest starts is fitted in a small band, and the best is
-    /// kept.
+    /// Searches starting values with the lowest modes: each of the likeliest starts is fitted in a small
+    /// band, and the best is used.
     fn begin(&mut self, band: [f64; 2], more: bool) -> Result<(), CalibrateError> {
         let modes_hz = self.options.reach * band[1];
         let spectra = self.spectra(band, COARSE)?;
@@ -151,7 +152,8 @@ impl Fit<'_> {
         let mut best: Option<(f64, Self)> = None;
         for start in &starts {
             let mut fit = self.clone();
-            // From here on gains are held to those of the start, no longer to the surface file's.
+            // From here on the priors of the gains are centred on those of the start, no longer on the
+            // surface file's.
             (fit.expected.level, fit.expected.drive) = (start.level, start.drive.clone());
             (fit.expected.sense, fit.values) = (start.sense.clone(), start.clone());
             let mut left = f64::INFINITY;
@@ -223,7 +225,8 @@ impl Fit<'_> {
 }
 
 impl Fit<'_> {
-    /// Responses by the values found so far, limited to the measurement's band; `None` if the measurement is not limited.
+    /// Modelled responses for the values found so far, limited to the measurement's band; `None` if the
+    /// measurement is not limited.
     fn limited(&self) -> Result<Option<Limited>, CalibrateError> {
         let Some(band) = self.measured.pairs.as_ref().and_then(|pairs| pairs.limited) else {
             return Ok(None);

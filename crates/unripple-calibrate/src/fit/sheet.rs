@@ -9,23 +9,24 @@ use unripple_linalg::{Mat, symmetric};
 /// The bare sheet at some values of the unknowns, without loads: its modes as combinations of the nominal ones.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
-    /// Squares of the frequencies, (rad/s)².
+    /// Squares of the natural frequencies, in (rad/s)².
     pub squares: Vec<f64>,
-    /// Decay rates, 1/s.
+    /// Decay rates of the modes, in 1/s.
     pub sigmas: Vec<f64>,
     /// The sheet's modes as combinations of the nominal ones, a column for each: nominal modes x modes.
     pub turn: Mat<f64>,
-    /// Stiffness of all tension, nominal modes x nominal modes, in (rad/s)².
+    /// Stiffness due to tension, nominal modes x nominal modes, in (rad/s)².
     pub tension: Mat<f64>,
-    /// Stiffness of bending, nominal modes x nominal modes, in (rad/s)².
+    /// Stiffness due to bending, nominal modes x nominal modes, in (rad/s)².
     pub bending: Mat<f64>,
 }
 
 impl Sheet {
-    /// The sheet for `values`, by the first `count` nominal modes; `top` is the top of the band in Hz.
+    /// The sheet for `values` of the unknowns, computed from the first `count` nominal modes; `top` is the
+    /// top of the band in Hz.
     ///
-    /// By the nominal modes the stiffness is Ω² + ΔK. Its eigenvectors are the new modes, exact but for the nominal modes that
-    /// are left out.
+    /// In coordinates of the nominal modes the stiffness is Ω² + ΔK. Its eigenvectors are the new modes,
+    /// exact but for the nominal modes that are left out.
     pub fn new(basis: &Basis, values: &Values, count: usize, top: f64) -> Result<Self, CalibrateError> {
         let part = |all: &Mat<f64>| all.submatrix(0, 0, count, count).to_owned();
         let nominal = part(&basis.tension);

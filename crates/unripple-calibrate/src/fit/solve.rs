@@ -13,8 +13,8 @@ const SETTLED: f64 = 1e-3;
 const LAST_STEPS: usize = 40;
 const LAST_CHANGE: f64 = 0.01;
 
-/// Smallest residual, relative to the stated noise, that standard errors are computed from. Otherwise a measurement with overstated
-/// noise would have errors near 0.
+/// Smallest residual, relative to the stated noise, from which standard errors are computed. Otherwise a
+/// measurement with overstated noise would have errors near 0.
 const LEAST: f64 = 0.05;
 
 /// Factor of variances that are computed from groups of rows, since the groups are few and the fit follows each of them: with it, 95
@@ -25,26 +25,26 @@ const FEW: f64 = 1.5;
 /// sheet vanish, and with them all derivatives.
 const INSIDE: f64 = 1e-4;
 
-/// Damping of a Levenberg-Marquardt step above which the descent ends. With so much damping a step no longer changes any digit that
-/// matters.
+/// Damping of a Levenberg-Marquardt step above which the descent ends: a step with so much damping no longer
+/// changes any digit that matters.
 const STUCK: f64 = 1e6;
 
 /// Result of a least-squares fit by the Levenberg-Marquardt method: fitted values and their residual.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
-    /// The values of the unknowns.
+    /// The fitted values of the unknowns.
     pub values: Values,
     /// Rms residual relative to noise: the root of chi squared per degree of freedom.
     pub excess: f64,
     /// Rms residual, relative to the rms of the measurement.
     pub share: f64,
-    /// The residual at these values.
+    /// The residual at the fitted values.
     pub residual: Residual,
 }
 
 impl Case<'_> {
-    /// The values that fit best, by the Levenberg-Marquardt method from `start`, each unknown with its prior around `expected`.
-    /// `last` asks for the final accuracy.
+    /// The values that fit best, by the Levenberg-Marquardt method from `start`, each unknown with its prior
+    /// around `expected`. `last` selects the accuracy of the final fit.
     ///
     /// Where the residual stays above the noise, the noise counts as that much larger, so that a wrong model does not overrule
     /// the priors.
@@ -160,7 +160,7 @@ fn pulled_apart(residual: &Residual, way: usize, inverse: &Mat<f64>, excess: f64
 }
 
 impl Case<'_> {
-    /// A place on the sheet: itself, or the nearest one a little inside the rim.
+    /// The place `at` if it lies on the sheet, otherwise the nearest place a little inside the rim.
     fn inside(&self, at: Point) -> Point {
         let outline = &self.basis.outline;
         if outline.contains(at) {

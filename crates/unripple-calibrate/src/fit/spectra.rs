@@ -20,12 +20,13 @@ const SPACING: f64 = 1.0;
 pub(crate) struct Spectra {
     /// The complex frequencies, 1/s.
     pub frequencies: Vec<c64>,
-    /// Spectra of the responses between actuators, in the order of [`Pairs`](super::Pairs); empty where not measured.
+    /// Spectra of the responses between actuators, in the order of [`Pairs`](super::Pairs); empty for pairs
+    /// that were not measured.
     pub pairs: Vec<Vec<c64>>,
     /// Standard deviation of the noise in real and imaginary parts of `pairs`.
     pub pair_noise: f64,
-    /// Spectra, `[term][frequency]`, of which modes far above the band are composed in `pairs`: an impulse and its odd
-    /// derivatives; for responses limited to a band also these as limited.
+    /// Spectra, `[term][frequency]`, whose combinations represent modes far above the band in `pairs`: an
+    /// impulse and its odd derivatives; for responses limited to a band, also these after the limit.
     pub far: Vec<Vec<c64>>,
     /// Spectra of each tap at each actuator, `[tap][actuator][frequency]`.
     pub taps: Vec<Vec<Vec<c64>>>,
@@ -38,9 +39,9 @@ pub(crate) struct Spectra {
 }
 
 impl Spectra {
-    /// Transforms from `low` to `high` (Hz), of at most `window` seconds of the signals, under a window of at least the decay rate
-    /// `alpha` (1/s). To responses between actuators that were limited to a band, the part that this removed is added from the
-    /// model `limited`.
+    /// Transforms from `low` to `high` (Hz), of at most `window` seconds of the signals, under a window of
+    /// at least the decay rate `alpha` (1/s). If responses between actuators were limited to a band, the
+    /// part that the limit removed is added from the model `limited`.
     pub fn of(
         measured: &Measured,
         limited: Option<&Limited>,

@@ -1,4 +1,4 @@
-//! Starting values of a fit, where a surface file is off by more than a descent can correct.
+//! Starting values of a fit, for surface files with larger errors than a descent can correct.
 
 use super::forward::Answer;
 use super::layout::{Unknown, Values};
@@ -19,19 +19,19 @@ const FOLLOWED: usize = 3;
 /// Largest residual power of a start that is fitted, relative to that of the best.
 const WORTH: f64 = 2.0;
 
-/// Difference of a single channel's gain from the others, as a logarithm, from which it is taken over before the fit: places and a
-/// tension that are not found yet make half of that.
+/// Smallest difference of a single channel's gain from the others, as a logarithm, at which the gain is
+/// corrected before the fit: errors of places and tension, which are not fitted yet, cause half of that.
 const ANOTHER: f64 = 0.4;
 
-/// Trial values, and the power of the residual that they leave.
+/// Trial values of the unknowns, and the power of their residual.
 struct Try {
     values: Values,
     left: f64,
 }
 
 impl Case<'_> {
-    /// Values to descend from, the likeliest first: tension and bending stiffness with which the model explains the lowest modes
-    /// best, and gains estimated with them.
+    /// Starting values for descents, the likeliest first: tension and bending stiffness with which the model
+    /// explains the lowest modes best, and gains estimated with them.
     pub fn starts(&self, expected: &Values) -> Result<Vec<Values>, CalibrateError> {
         let steps = |(most, step): (f64, f64)| {
             let count = (most / step).round() as i32;
@@ -112,7 +112,7 @@ impl Case<'_> {
     }
 }
 
-/// Trials that leave less than both their neighbours.
+/// Trials with a smaller residual than both their neighbours: local minima.
 fn dips(row: Vec<Try>) -> Vec<Try> {
     let left: Vec<f64> = row.iter().map(|t| t.left).collect();
     let before = |n: usize| n.checked_sub(1).map_or(f64::INFINITY, |m| left[m]);

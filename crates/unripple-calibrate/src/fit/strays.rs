@@ -8,8 +8,8 @@ use crate::CalibrateError;
 use unripple_core::{Outline, Point};
 use unripple_linalg::{Mat, Scale, product};
 
-/// Masses that are tried at every place, in kg. A factor of three apart: the derivative from the nearest of them
-/// leads the rest of the way.
+/// Masses that are tried at every place, in kg. A factor of three apart, so that the derivative at the
+/// nearest of them leads to the mass sought.
 const TRIED: [f64; 3] = [3e-6, 10e-6, 30e-6];
 
 /// Places that are tried per shortest wavelength of the fitted band. Half as many may miss a mass between two places;

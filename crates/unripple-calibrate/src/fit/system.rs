@@ -1,4 +1,5 @@
-//! The coupled equations of a sheet and its loads, with what left-out modes contribute (residual flexibility).
+//! The coupled equations of a sheet and its loads, including the contribution of modes that are left out
+//! (residual flexibility).
 
 use super::basis::Basis;
 use super::coil::Coil;
@@ -9,7 +10,7 @@ use unripple_core::Point;
 use unripple_linalg::{Mat, Scale, product};
 use unripple_physics::{Footprint, Medium};
 
-/// Half the distance over which slopes of shapes are taken, in metres.
+/// Half the distance of the central difference for slopes of mode shapes, in metres.
 const STEP: f64 = 1e-6;
 
 /// Smallest size of a point contact, in metres: without one, a membrane without bending stiffness would have an infinite compliance at
@@ -19,42 +20,43 @@ const FINEST: f64 = 1e-4;
 /// The modes that are left out, as one equivalent mode at each load (residual flexibility).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rest {
-    /// Squared weight at the load, in 1/kg.
+    /// Squared weight of the equivalent mode at the load, in 1/kg.
     pub weight: f64,
-    /// Squared angular frequency, in (rad/s)².
+    /// Squared angular frequency of the equivalent mode, in (rad/s)².
     pub square: f64,
-    /// Share of bending in its elastic energy, 0 to 1.
+    /// Share of bending in the equivalent mode's elastic energy, 0 to 1.
     pub bending_share: f64,
 }
 
 /// A sheet with loads on it: actuators and stray masses.
 #[derive(Clone, Debug)]
 pub(super) struct System {
-    /// The bare sheet at these values.
+    /// The sheet without loads, for the values of the unknowns.
     pub sheet: Sheet,
-    /// The vector of unknowns: which there are, and in which order.
+    /// The unknowns of the fit, and their order in the vector of unknowns.
     pub layout: Layout,
-    /// Shapes at the places, modes x places: actuators, stray loads, then taps.
+    /// Mode shapes at the places of actuators, of stray masses, then of taps: modes x places.
     pub shapes: Mat<f64>,
     /// Slopes of the shapes along x and y at actuators and stray masses, each modes x loads.
     pub slopes: [Mat<f64>; 2],
-    /// Residual flexibility: the modes that are left out, as one more.
+    /// Residual flexibility: all modes that are left out, as one equivalent mode at each load.
     pub rest: Rest,
     /// Mass at each actuator and stray mass, in kg.
     pub masses: Vec<f64>,
     /// Damping to the ground at each actuator and stray mass, in N·s/m.
     pub resistances: Vec<f64>,
-    /// Coil of each actuator and stray mass that depends on frequency; `None` for all others.
+    /// Coil of each actuator whose force depends on frequency; `None` for all other actuators and for stray
+    /// masses.
     pub coils: Vec<Option<Coil>>,
-    /// The band's top, in Hz.
+    /// Highest frequency of the band, in Hz.
     pub top: f64,
-    /// The tension's ratio to nominal.
+    /// Ratio of the tension to its nominal value, dimensionless.
     pub ratio: f64,
 }
 
 impl System {
-    /// The system for `values`, by the first `count` nominal modes, with taps at the places `taps`; `top` is the top of the band in
-    /// Hz.
+    /// The system for `values` of the unknowns, computed from the first `count` nominal modes, with taps at
+    /// the places `taps`; `top` is the top of the band in Hz.
     pub fn new(
         basis: &Basis,
         layout: &Layout,
@@ -99,7 +101,7 @@ impl System {
         })
     }
 
-    /// Number of places: actuators, stray loads, taps.
+    /// Number of places in the equations: actuators, stray masses and taps.
     pub fn places(&self) -> usize {
         self.shapes.ncols()
     }
@@ -112,7 +114,7 @@ impl Rest {
     fn above(medium: &Medium, k: f64) -> Self {
         let (tension, bending) = (medium.tension, medium.bending_stiffness);
         let (start, end) = (k * k, (1.0 / FINEST).powi(2).max(100.0 * k * k));
-        // By u = k²/t the integrands are smooth down to the end.
+        // With the substitution u = k²/t the integrands are smooth down to the end.
         let last = start / end;
         let line = Footprint::line(Point::new(last, 0.0), Point::new(1.0, 0.0), 24);
         let stiffness = |t: f64| tension * t + bending * start;

@@ -27,16 +27,16 @@ impl Lost {
 pub struct Knocked {
     /// Time of the knock, in s of the played signal.
     pub at_s: f64,
-    /// The actuators whose sweeps it hit, from 1.
+    /// Numbers, from 1, of the actuators whose sweeps the knock disturbed.
     pub actuators: Vec<usize>,
     /// Energy of the knock, relative to that of one recorded sweep, in dB.
     pub share_db: f64,
-    /// Whether the sweeps that it hit were replaced by those of other takes of the same point.
+    /// Whether the sweeps that the knock disturbed were replaced by those of other takes of the same point.
     pub left_out: bool,
 }
 
-/// Findings from the sweeps of a take on its clock, its gaps, the sheet's tension and other sounds. `None` means not known: nothing that
-/// shows it was recorded.
+/// Findings from the sweeps of a take (one recording) about its clock, its gaps, the sheet's tension and
+/// other sounds. `None` means unknown: the recording has nothing from which the quantity follows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Account {
     /// Error of the recording's clock relative to that of playing, in parts per million, positive if it is faster; corrected in the
@@ -44,44 +44,47 @@ pub struct Account {
     pub clock_ppm: Option<f64>,
     /// Standard error of `clock_ppm`, in parts per million.
     pub clock_error_ppm: f64,
-    /// Rms deviation of the sweeps' times of arrival, in samples, that neither a clock error nor lost samples explain; not corrected.
+    /// Rms deviation of the sweeps' times of arrival, in samples, that neither a clock error nor lost
+    /// samples explain; not corrected in the responses.
     pub scatter: Option<f64>,
-    /// Delay of the take relative to the first take, in samples; corrected.
+    /// Delay of this take relative to the first take, in samples; corrected in the responses.
     pub late: Option<f64>,
-    /// Gaps in the recording; what comes after each is moved back to its time.
+    /// Gaps in the recording; samples after each gap have been moved back to their correct time.
     pub lost: Vec<Lost>,
-    /// Relative change of tension (of stiffness, for a plate without tension) since the first take, at the first and at the last sweep;
-    /// corrected.
+    /// Relative change of tension (of stiffness, for a plate without tension) since the first take, at the
+    /// first and at the last sweep; corrected in the responses.
     pub drift: Option<[f64; 2]>,
-    /// Whether `drift` is that of stiffness, since the plate has no tension.
+    /// Whether `drift` is a change of stiffness, since the plate has no tension.
     pub of_stiffness: bool,
-    /// The knocks that were found, in order of time.
+    /// Knocks (sounds that were not played) in the recording, in order of time.
     pub knocks: Vec<Knocked>,
     /// Largest magnitude that was recorded, in the device's unit: 1 is full scale.
     pub peak: f64,
-    /// Second and third harmonic of each actuator, relative to the amplitude of the drive; NaN where none stands out of the noise.
+    /// Amplitudes of the second and third harmonic of each actuator, relative to that of the drive; NaN for
+    /// a harmonic that does not stand out of the noise.
     pub harmonics: Vec<[f64; 2]>,
-    /// Number of sweeps that sensors recorded otherwise than in the first take, where neither noise nor a knock is the reason, and number
-    /// of all sweeps; `None` unless they are many.
+    /// Number of sweeps whose sensor signals differ from those of the first take for other reasons than
+    /// noise or a knock, and number of all sweeps; `None` unless the former are many.
     pub unlike: Option<[usize; 2]>,
     /// Accounts of further takes of the same place, in their order; the fields above are those of the first take.
     pub repeats: Vec<Account>,
 }
 
-/// Clock error below which none is reported, in parts per million.
+/// Smallest clock error that is reported, in parts per million.
 const SAME_PPM: f64 = 0.5;
 
-/// Relative change of tension below which none is reported.
+/// Smallest relative change of tension that is reported.
 const SAME_TENSION: f64 = 1e-4;
 
-/// Delay below which none is reported, in samples: a third of a degree of the phase at 1 kHz for a rate of 48 kHz.
+/// Smallest delay that is reported, in samples: a third of a degree of the phase at 1 kHz for a rate of 48
+/// kHz.
 const SAME_TIME: f64 = 0.05;
 
-/// Share of the amplitude from which a harmonic is reported.
+/// Smallest harmonic that is reported, as a share of the drive's amplitude.
 const LEAST_HARMONIC: f64 = 1e-3;
 
 impl Account {
-    /// The findings in words, one sentence each. What is as it should be is not mentioned.
+    /// The findings in words, one sentence each; only deviations and faults are mentioned.
     pub fn said(&self) -> Vec<String> {
         let mut said = self.brought();
         if !self.repeats.is_empty() {

@@ -6,15 +6,17 @@ use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
-/// Largest relative change of tension that is searched: twice what is promised, and more than the warmth of a hand makes.
+/// Largest relative change of tension that is searched: twice the specified range, and more than the warmth
+/// of a hand causes.
 const MOST_CHANGE: f64 = 0.016;
 
 /// Phase by which the end of a response turns from one tried change to the next, in radians. With twice as much a maximum of
 /// the correlation may be missed, half as much takes twice as long.
 const TURN: f64 = 1.0;
 
-/// Steps on either side of an expected change that are tried first, and the correlation with which the best of them is taken: no other
-/// change comes as near then. With fewer steps a slow drift from sweep to sweep is lost.
+/// Number of steps on either side of an expected change that are tried first, and the smallest correlation
+/// at which the best of them is accepted: no other change reaches as high a correlation then. With fewer
+/// steps a slow drift from sweep to sweep is lost.
 const NEAR: i64 = 5;
 const ALIKE: f64 = 0.95;
 
@@ -26,7 +28,8 @@ const MOST_DELAY: f64 = 2.5;
 const FINEST: f64 = 1e-5;
 const COARSE: f64 = 1.0 / 16.0;
 
-/// Lines whose phases are turned side by side: two registers of AVX2 for each part. With twice this value nothing is gained.
+/// Number of lines whose phases are rotated side by side: two registers of AVX2 for each part. With twice
+/// this value nothing is gained.
 const BESIDE: usize = 8;
 
 /// Delay and relative change of tension between two takes of the same responses, with standard errors.
@@ -36,23 +39,24 @@ pub(super) struct Apart {
     pub late: f64,
     /// Relative change of tension (or stiffness) from known to found.
     pub change: f64,
-    /// Correlation of the two takes once delay and change are taken out, from -1 to 1.
+    /// Correlation of the two takes after delay and change are removed, from -1 to 1.
     pub likeness: f64,
-    /// Standard errors of `late` and of `change`, from what the two leave unexplained.
+    /// Standard errors of `late` and of `change`, from the part of the responses that both leave
+    /// unexplained.
     pub errors: [f64; 2],
 }
 
-/// The change of tension (or stiffness) that is searched.
+/// Which change of tension (or stiffness) is searched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Change {
-    /// None.
+    /// No change of tension is searched.
     None,
-    /// Any, first near this relative change, which is that of a sweep shortly before.
+    /// Any change is searched, first near this relative change, which was found for an earlier sweep.
     Near(f64),
 }
 
 impl Change {
-    /// The change that is searched after one was found, if any was.
+    /// The search for the next sweep: near the change found for the one before, if any was found.
     pub fn after(self, found: Option<Apart>) -> Self {
         match (self, found) {
             (Self::Near(_), Some(apart)) => Self::Near(apart.change),
@@ -68,7 +72,7 @@ pub(super) struct Pairs<'a> {
     law: &'a Law,
     /// First and last frequency, in Hz.
     band: [f64; 2],
-    /// Phase per sample of delay, in radians: of the first line, and from line to line.
+    /// Phase per sample of delay, in radians: at the first line, and the increment from line to line.
     turns: [f64; 2],
     samples: usize,
     rate: f64,
@@ -136,7 +140,8 @@ impl<'a> Pairs<'a> {
         Apart { late, change: best, likeness: most, errors: self.errors(best, late, most, step) }
     }
 
-    /// The change with which the pairs agree best, of so many steps, and their correlation then.
+    /// The change, a multiple of `step` among `steps`, at which the pairs agree best, and their correlation
+    /// there.
     fn best(&self, step: f64, steps: RangeInclusive<i64>) -> (f64, f64) {
         let tried = steps.map(|i| (step * i as f64, self.at(step * i as f64, COARSE)[1]));
         tried.fold((0.0, f64::NEG_INFINITY), |best, one| if one.1 > best.1 { one } else { best })
@@ -168,7 +173,7 @@ impl<'a> Pairs<'a> {
         [best, most]
     }
 
-    /// Sum of the cross-spectra of all pairs, each of power 1.
+    /// Sum of the cross-spectra of all pairs, each normalised to power 1.
     fn cross(&self, change: f64) -> Vec<Complex<f64>> {
         let mut sum: Vec<Complex<f64>> = Vec::new();
         let Some(moves) = self.moves(change) else { return sum };
@@ -180,7 +185,8 @@ impl<'a> Pairs<'a> {
         sum
     }
 
-    /// Where each line of the band comes from under a change, the same for all pairs; `None` without pairs.
+    /// Original frequency of each line of the band under a change of tension, equal for all pairs; `None`
+    /// without pairs.
     fn moves(&self, change: f64) -> Option<Moves> {
         let known = self.known.first()?;
         Some(known.moves(self.band, |hz| self.law.unchanged(hz, change)))
@@ -192,8 +198,8 @@ impl<'a> Pairs<'a> {
         moved.iter().zip(&self.found[pair]).map(|(known, found)| found * known.conj()).collect()
     }
 
-    /// Which pairs, in their order without silent ones, have a correlation below `least` (-1 to 1) once the common delay and
-    /// change are taken out.
+    /// Whether each pair (silent ones left out) has a correlation below `least` (-1 to 1) after the common
+    /// delay and change are removed.
     pub fn strange(&self, apart: &Apart, least: f64) -> Vec<bool> {
         let Some(moves) = self.moves(apart.change) else { return Vec::new() };
         let count = self.known.len() as f64;
@@ -201,7 +207,8 @@ impl<'a> Pairs<'a> {
         (0..self.known.len()).map(|pair| likeness(pair) < least).collect()
     }
 
-    /// These pairs without the marked ones; `None` unless more than half of them are left.
+    /// These pairs without those marked `true` in `strange`; `None` unless more than half of the pairs
+    /// remain.
     pub fn without(mut self, strange: &[bool]) -> Option<Self> {
         let keep = |n: usize| !strange.get(n).copied().unwrap_or(false);
         let count = self.known.len();
@@ -229,7 +236,7 @@ impl<'a> Pairs<'a> {
         sums.iter().sum::<f64>() / self.known.len() as f64
     }
 
-    /// Standard errors of delay and change, from the curvature of the correlation and what it leaves unexplained.
+    /// Standard errors of delay and change, from the curvature of the correlation and its distance from 1.
     fn errors(&self, change: f64, late: f64, likeness: f64, step: f64) -> [f64; 2] {
         let left = (1.0 - likeness * likeness).max(1e-12);
         let width = self.band[1] - self.band[0];
@@ -252,7 +259,7 @@ fn faded(signal: &[f64], band: Band, rate: f64) -> Vec<f64> {
     let length = signal.len() as f64;
     let gate = crate::signals::Gate { begin: -1.0, rise: 1.0, end: length, fall: length / 4.0 };
     gate.apply(&mut signal);
-    // A band out of range leaves it as it is: its lines are taken within the band anyway.
+    // A band out of range leaves the signal unchanged: its lines are taken within the band anyway.
     let _ = band.limit(&mut signal, rate);
     signal
 }

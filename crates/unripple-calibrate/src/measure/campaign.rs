@@ -1,17 +1,17 @@
-//! All points of a plan measured one by one, into a sink from which a later run can resume.
+//! Measurement of all points of a plan, one by one, into a sink from which a later run can resume.
 
 use super::{Channel, Listen, Rig, Session, TapSession};
 use crate::CalibrateError;
 use std::ops::ControlFlow;
 use unripple_core::Point;
 
-/// Store of finished points, which keeps them one by one.
+/// Storage of measured points, to which one point is written at a time.
 pub trait Sink {
     /// Indices of the points that are still to be measured.
     fn missing(&self) -> Vec<usize>;
 
-    /// Stores the responses of point `number` so that they survive even a crash of the program. `fault` says why the point is
-    /// bad, if it is.
+    /// Stores the responses of point `number` so that they survive even a crash of the program. `fault` is
+    /// the reason why the point is bad; `None` for a good point.
     ///
     /// # Errors
     /// [`CalibrateError::Sink`] if the point could not be stored.
@@ -23,7 +23,7 @@ pub trait Sink {
 pub struct Progress {
     /// Number of points stored so far, in this run.
     pub done: usize,
-    /// Number of points that this run has to measure.
+    /// Number of points that were missing when this run began.
     pub total: usize,
     /// Index of the point stored last.
     pub number: usize,
@@ -36,9 +36,9 @@ pub struct Progress {
 /// Way of measuring a place: by a probe, or by taps.
 #[derive(Clone, Debug)]
 pub enum Way {
-    /// A probe on the surface, actuators driving.
+    /// By a probe on the surface, while the actuators drive.
     Probe(Box<Session>),
-    /// Taps on the surface, actuators as sensors.
+    /// By taps on the surface, which the actuators record as sensors.
     Tap(Box<TapSession>),
 }
 
@@ -71,9 +71,10 @@ impl Way {
     }
 }
 
-/// Measures every point that is missing in a sink, in order, and stores each as soon as it is finished; returns the number of
-/// bad points. A bad point is measured again, up to `again` times, and the best of its recordings is stored. Ends early if
-/// `tell` returns [`ControlFlow::Break`].
+/// Measures every point that is missing in a sink, in order, and stores each as soon as it is finished;
+/// returns the number of bad points. A bad point is measured again, up to `again` times, and the best of its
+/// recordings is stored. `tell` is called after each point; the campaign ends early if it returns
+/// [`ControlFlow::Break`].
 ///
 /// # Errors
 /// Those of rig, device and sink, and [`CalibrateError::Count`] for a missing point that is not among `points`. Points stored

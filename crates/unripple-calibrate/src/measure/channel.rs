@@ -1,11 +1,11 @@
-//! Responses of every actuator at one input, and their quality.
+//! Responses to every actuator, recorded at one input, and their quality.
 
 use super::Account;
 use super::telling::around;
 use crate::signals::{Band, Quality, Sweep, band_powers};
 use unripple_dsp::mean_square;
 
-/// The responses that one input recorded of every actuator, and their quality.
+/// The responses to every actuator that one input of the device recorded, and their quality.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Channel {
     /// Responses, `[actuator][sample]` from time 0, in the input's unit per unit impulse of drive.
@@ -14,12 +14,12 @@ pub struct Channel {
     pub quality: Vec<Quality>,
     /// Quality of each response by thirds of an octave, `[actuator][band]`, bands ascending.
     pub bands: Vec<Vec<BandQuality>>,
-    /// Side findings of the take: clock, gaps, drift, knocks.
+    /// Other findings of the recording: clock error, gaps, drift of tension, knocks.
     pub account: Account,
 }
 
 impl Channel {
-    /// A channel of responses `[actuator][sample]` alone, without quality or account: those of a library.
+    /// A channel of stored responses `[actuator][sample]`, without quality and account.
     pub fn of_responses(responses: Vec<Vec<f64>>) -> Self {
         Self { responses, ..Self::default() }
     }
@@ -43,26 +43,29 @@ const LEAST_NOISE: f64 = 1e-15;
 /// second harmonic precedes that response.
 const QUIET: [f64; 2] = [0.9, 0.2];
 
-/// Number of segments of that interval, each half as long, of which the quietest counts.
+/// Number of overlapping segments of the interval `QUIET`, each half as long, of which the quietest is used.
 const STRETCHES: usize = 5;
 
-/// Spectral lines of a segment that are left out at each edge of the band: the ringing of the edges precedes time 0.
+/// Number of spectral lines of a segment that are left out at each edge of the band: the ringing of the
+/// edges precedes time 0.
 const EDGES: f64 = 3.0;
 
-/// Noise of a deconvolved recording, before the first sweep's response begins, where the drive leaves nothing but decaying
-/// harmonics.
+/// Noise of a deconvolved recording, measured before the first sweep's response begins, where the drive
+/// causes nothing but decaying harmonics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Noise {
     /// Samples of the whole interval in which noise is measured.
     pub whole: Vec<f64>,
-    /// Samples of another interval, between the fourth and the third harmonic: the noise beside the second and the third.
+    /// Samples of an earlier interval, between the responses of the fourth and third harmonics: the noise to
+    /// which the second and third harmonics are compared.
     pub early: Vec<f64>,
     /// Mean square of the noise in the quietest segment, for the whole band.
     pub power: f64,
 }
 
 impl Noise {
-    /// Noise of a whole deconvolved recording that is limited to `band`; sample `lead` is time 0 of the first response.
+    /// Measures the noise of a whole deconvolved recording that is limited to `band`; sample `lead` is time
+    /// 0 of the first response.
     pub fn of(deconvolved: &[f64], sweep: &Sweep, lead: usize, band: Band) -> Self {
         let second = sweep.lead(2) * sweep.rate;
         let [from, to] = QUIET.map(|share| (share * second).round() as i64);
@@ -83,7 +86,8 @@ impl Noise {
         Self { early, whole, power }
     }
 
-    /// Signal-to-noise ratio, in dB, of a response that contains this noise; at best that of the sample format.
+    /// Signal-to-noise ratio, in dB, of a response that contains this noise; at most that of the sample
+    /// format.
     pub fn snr_db(&self, response: &[f64]) -> f64 {
         let all = mean_square(response);
         ratio_db(all - self.power, self.power.max(LEAST_NOISE * all))
@@ -94,7 +98,7 @@ fn ratio_db(signal: f64, noise: f64) -> f64 {
     if signal > 0.0 && noise > 0.0 { 10.0 * (signal / noise).log10() } else { f64::NEG_INFINITY }
 }
 
-/// Thirds of an octave that a band holds whole: lower edge, upper edge, in Hz.
+/// Thirds of an octave that lie entirely within a band: lower and upper edge of each, in Hz.
 pub(super) fn thirds(band: Band) -> Vec<[f64; 2]> {
     let edge = 2f64.powf(1.0 / 6.0);
     let [low, high] = [band.low[1], band.high[0]];
@@ -102,7 +106,8 @@ pub(super) fn thirds(band: Band) -> Vec<[f64; 2]> {
     (-24..24).map(third).filter(|[from, to]| *from >= 0.999 * low && *to <= 1.001 * high).collect()
 }
 
-/// Quality by thirds of an octave: of repeats of one response, from their differences; of a single one, from `noise`.
+/// Quality by thirds of an octave: of repeats of one response, from their differences; of a single response,
+/// from `noise`.
 pub(super) fn by_bands(repeats: &[&[f64]], noise: &Noise, band: Band, rate: f64) -> Vec<BandQuality> {
     let thirds = thirds(band);
     let count = repeats.len() as f64;

@@ -1,4 +1,5 @@
-//! The force of a tap, from the sensors' signals and the responses that a model expects, and what is assumed of it.
+//! The force of a tap, computed from the sensors' signals and modelled responses, and the assumptions about
+//! taps.
 
 use crate::CalibrateError;
 use crate::signals::Band;
@@ -8,14 +9,14 @@ use unripple_linalg::{Cholesky, Mat, non_negative, product, squared_norm};
 /// that the sensors hardly receive; more would make the force weaker than it is, by about this share.
 const RIDGE: f64 = 1e-4;
 
-/// Assumptions about taps before they are recorded, and how far the model is trusted.
+/// Assumptions about the forces of taps, and about the time for which the model is accurate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TapOptions {
-    /// Longest time that a tap takes, in s, without bounces.
+    /// Longest duration of a tap, in s, without bounces.
     pub length: f64,
     /// Longest time from a tap to its last bounce, in s.
     pub bounces: f64,
-    /// Time after the last possible force, in s, until which signals are compared with the model.
+    /// Time after the last possible force, in s, for which signals are still compared with the model.
     pub early: f64,
     /// Whether a tap is known to push and never to pull, so that its force has one sign.
     pub pushes: bool,
@@ -31,46 +32,51 @@ impl Default for TapOptions {
 }
 
 impl TapOptions {
-    /// For a model of which little is known to be right. Without bounces it is compared with the first 11 ms alone, in which a small error
-    /// of tension hardly moves reflections; a force that may pull makes up for part of its errors.
+    /// Options for a model that was not fitted to the surface. Without bounces, only the first 11 ms of the
+    /// signals are compared with it, in which a small error of tension hardly moves reflections; a force
+    /// that may pull compensates part of its errors.
     pub fn for_unfitted() -> Self {
         Self { bounces: 0.0, pushes: false, ..Self::default() }
     }
 
-    /// Duration of the signals' part in which there may be a force, in s: from a tap's length before the first one is expected to that
-    /// much after it, and until the last bounce.
+    /// Duration, in s, of the part of the signals in which there may be a force: twice the length of a tap,
+    /// since its start is uncertain, plus the time until the last bounce.
     pub fn span(&self) -> f64 {
         2.0 * self.length + self.bounces
     }
 }
 
-/// A force, and how well it explains the signals.
+/// The force of a tap, and how well it explains the sensors' signals.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Force {
-    /// Samples in N, from the first sample of the signals on.
+    /// Samples of the force, in N, from the first sample of the signals on.
     pub samples: Vec<f64>,
-    /// Share of the power of the signals that it leaves unexplained, as long as the model is trusted.
+    /// Share of the signals' power that the force leaves unexplained, within the time compared with the
+    /// model.
     pub unexplained: f64,
 }
 
 impl Force {
-    /// The force that best explains the sensors' signals (`heard`, `[sensor][sample]`) by the modelled responses (`model`, alike) in the
-    /// least-squares sense, straight between knots. All signals are limited to the band, by which responses begin before their impulse:
-    /// the model's have `lead` samples before it.
+    /// Finds the force that best explains the sensors' signals (`heard`, `[sensor][sample]`) with the
+    /// modelled responses (`model`, also `[sensor][sample]`) in the least-squares sense, linear between
+    /// knots. All signals are limited to the band, so that responses begin before their impulse: the model's
+    /// have `lead` samples before it.
     ///
-    /// A tap pushes and never pulls, so that its force has one sign. With a good model that keeps noise from looking like a bounce. With a
-    /// poor one, a force that may pull makes up for part of what the model does not know.
+    /// A tap pushes and never pulls, so that its force has one sign. With a good model, this keeps noise
+    /// from being taken for a bounce. With a poor one, a force that may pull compensates part of the model's
+    /// errors.
     pub fn find(
         heard: &[Vec<f64>],
         (model, lead): (&[Vec<f64>], usize),
         (rate, band): (f64, Band),
         options: &TapOptions,
     ) -> Result<Self, CalibrateError> {
-        // Knots as close as the band's top asks for, and samples of the signals no closer: they have nothing above it.
+        // Knots as close as the top of the band requires, and signals sampled no more closely: they contain
+        // nothing above it.
         let step = (rate / (3.0 * band.high[1].min(rate / 3.0))).round().max(1.0) as usize;
         let samples = |seconds: f64| (seconds * rate) as usize;
         let (span, all) = (samples(options.span()), samples(options.span() + options.early));
-        // Where a recording ends, nothing is known of what follows.
+        // After the end of a recording nothing is known.
         let all = all.min(heard.iter().map(Vec::len).min().unwrap_or(0));
         let (knots, rows, ahead) = (span / step + 1, all.div_ceil(step), lead / step);
         // A triangular force at each knot; triangles add up to straight lines between knots.

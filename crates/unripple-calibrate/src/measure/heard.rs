@@ -21,7 +21,8 @@ impl Session {
         Ok(whole)
     }
 
-    /// Responses and their quality from the signal of one input in all takes, without the first `from` of the samples before time 0.
+    /// Responses and their quality from the signal of one input in all takes; the first `from` samples,
+    /// which precede time 0, are left out.
     pub(super) fn channel(
         &self,
         takes: &[Take],
@@ -58,8 +59,8 @@ impl Session {
         Ok(channel)
     }
 
-    /// Largest number of sweeps of a take that the sensors did not recognise, without those that a knock hit, and number of all sweeps;
-    /// `None` unless they are many.
+    /// Largest number, over the takes, of sweeps whose sensor signals differ from the first take's, without
+    /// those disturbed by a knock, and number of all sweeps; `None` unless the former is large.
     fn unlike(&self, takes: &[Take], hits: &[Vec<bool>]) -> Option<[usize; 2]> {
         let all = self.wires.drives.len();
         let missed = |(take, hits): (&Take, &Vec<bool>)| {
@@ -69,7 +70,8 @@ impl Session {
         (MANY * most > all).then_some([most, all])
     }
 
-    /// Which actuators' responses a knock hit, in the signal of one input; the knocks are added to the account.
+    /// Whether a knock disturbed each actuator's response in the signal of one input; the knocks are added
+    /// to the account.
     fn knocked(&self, channel: &mut Channel, line: &[f64]) -> Vec<bool> {
         let starts = self.schedule.starts();
         let sweeps = Sweeps {
@@ -95,7 +97,7 @@ impl Session {
         hits
     }
 
-    /// The response to one actuator, under the tension of the first take.
+    /// The response to one actuator, corrected to the tension of the first take.
     fn cut(&self, take: &Take, whole: &[f64], actuator: usize) -> Result<Vec<f64>, CalibrateError> {
         let mut cut = vec![0.0; self.schedule.window()];
         self.schedule.cut(whole, actuator, &mut cut)?;
@@ -121,7 +123,7 @@ impl Session {
         let kept = LEAD + self.options.samples(self.sweep.rate);
         let rows: Vec<&[f64]> = cuts.iter().map(|cut| &cut[..kept.min(cut.len())]).collect();
         let average = Average::of(&rows, Outliers::default())?;
-        // Its decay is that over the whole window.
+        // The decay in the quality is that over the whole window.
         let mut quality = Quality::of(&cuts[0][LEAD..], &[], self.sweep.rate)?;
         quality.snr_db = noise.snr_db(&average.mean[LEAD..]);
         if average.kept.iter().filter(|kept| **kept).count() > 1 {
@@ -143,14 +145,14 @@ impl Session {
         Ok(average.mean)
     }
 
-    /// Whether a response has more energy than what earlier sweeps left ringing.
+    /// Whether a response has more energy than the remaining ringing of earlier sweeps.
     fn stands_out(&self, response: &[f64], whole: &[f64], actuator: usize, noise: &Noise) -> bool {
         let rate = self.sweep.rate;
         let start = (self.schedule.starts()[actuator] + LEAD) as i64;
         let [from, to] = BEFORE.map(|share| (share * self.decay() * rate) as i64);
         let before = around(whole, start - from, usize::try_from(from - to).unwrap_or(0));
         let ringing = mean_square(&before) - noise.power;
-        // What is left of it in the window, as an exponential decay: time 0 to the end.
+        // Energy of that ringing in the window, from time 0 to the end, as an exponential decay.
         let left = ringing.max(0.0) * (-(BEFORE[0] + BEFORE[1])).exp() * self.decay() / 2.0 * rate;
         let all: f64 = response[LEAD..].iter().map(|x| x * x - noise.power).sum();
         all > MORE * left
@@ -175,13 +177,13 @@ impl Session {
         };
         match Harmonics::of(whole, &self.sweep, &split) {
             Ok(harmonics) => harmonics.of_drive(whole, &self.sweep, &split, &noise.early, self.decay()),
-            // A silent channel has no harmonics to speak of; its signal to noise says the rest.
+            // A silent channel has no harmonics; its signal-to-noise ratio is reported anyway.
             Err(_) => Vec::new(),
         }
     }
 }
 
-/// Takes in which no knock hit the actuator's response; all takes, if there is none.
+/// Takes in which no knock disturbed the actuator's response; all takes if there is no such take.
 fn unhit(hits: &[Vec<bool>], actuator: usize) -> Vec<usize> {
     let hit = |take: &usize| hits[*take].get(actuator).copied().unwrap_or(false);
     let clean: Vec<usize> = (0..hits.len()).filter(|take| !hit(take)).collect();
@@ -195,12 +197,13 @@ const MANY: usize = 3;
 /// the ringing of the band's edges reaches it.
 const BEFORE: [f64; 2] = [0.6, 0.4];
 
-/// Smallest energy of a response, relative to what is left ringing of earlier sweeps. With less, that ringing would pass for a response;
-/// with much more, weak actuators would count as silent.
+/// Smallest energy of a response, relative to the remaining ringing of earlier sweeps. With less, that
+/// ringing would be taken for a response; with much more, weak actuators would count as silent.
 const MORE: f64 = 3.0;
 
-/// The frequency (Hz) whose time in the sweep counts as that of a change of tension: the mean of its logarithm over thirds of an octave,
-/// weighted by the power of the response and the square of the frequency, since phases change in proportion to frequency.
+/// The frequency (Hz) whose time in the sweep is used as the time of a measured change of tension: the mean
+/// of its logarithm over thirds of an octave, weighted by the power of the response and the square of the
+/// frequency, since phases change in proportion to frequency.
 fn felt_at(response: &[f64], band: Band, rate: f64) -> f64 {
     let thirds = thirds(band);
     let powers = band_powers(response, rate, &thirds);

@@ -8,8 +8,8 @@ use unripple_dsp::median;
 /// Duration of a frame of the spectrogram, in s: spectral lines are 47 Hz apart.
 const FRAME: f64 = 0.0213;
 
-/// Level above what sweeps and noise explain, in dB, from which a frame contains a knock, where [`LOUD`] of all spectral lines have it.
-/// For white noise this level scatters by 1.5 dB.
+/// Level above that explained by sweeps and noise, in dB, that [`LOUD`] of all spectral lines of a frame
+/// must exceed for the frame to contain a knock. For white noise this level scatters by 1.5 dB.
 const STANDS_OUT: f64 = 8.0;
 
 /// Share of the spectral lines that must be loud. A third: a soft knock has little in the upper lines, while of a sweep's harmonics few
@@ -20,8 +20,9 @@ const LOUD: f64 = 1.0 / 3.0;
 /// says.
 const MOST: f64 = 0.25;
 
-/// Quantile of the power of a line over time that noise is estimated by, and the factor from it to the mean power of
-/// noise. 0.357 is -ln(1 - 0.3): the power of noise in a line is exponentially distributed.
+/// Quantile of a line's power over time from which its noise is estimated, and the factor from this quantile
+/// to the mean power of noise. 0.357 is -ln(1 - 0.3): the power of noise in a line is exponentially
+/// distributed.
 const QUIETEST: (f64, f64) = (0.3, 1.0 / 0.357);
 
 /// Power below which spectral lines are ignored, relative to the largest power of any line in a sweep: a knock that matters is 20 dB
@@ -29,10 +30,12 @@ const QUIETEST: (f64, f64) = (0.3, 1.0 / 0.357);
 /// knock, whose low lines may be 50 dB above its middle ones.
 const FLOOR: f64 = 1e-4;
 
-/// Quiet frames that separate two knocks: 43 ms, since frames overlap by half. With fewer, a bounce counts as a knock of its own.
+/// Quiet frames that separate two knocks: 43 ms, since frames overlap by half. With fewer, a bounce would
+/// count as another knock.
 const APART: usize = 4;
 
-/// Frames in which a knock rises: the last has no sample in common with that before the first.
+/// Number of frames within which the level of a knock rises: the last has no sample in common with the frame
+/// before the first.
 const RISE: usize = 3;
 
 /// A knock: a short sound in a recording that was not played.
@@ -40,7 +43,7 @@ const RISE: usize = 3;
 pub(super) struct Knock {
     /// Beginning of the knock, in samples.
     pub at: usize,
-    /// Energy of the knock, relative to that of an average sweep, both as recorded in the band.
+    /// Energy of the knock, relative to that of an average recorded sweep, both within the band.
     pub share: f64,
 }
 
@@ -59,8 +62,9 @@ pub(super) struct Sweeps<'a> {
 }
 
 impl Sweeps<'_> {
-    /// Knocks in the recording of one input, `line`, in order of time: frames in which a third of all spectral lines are louder than
-    /// noise and what is left of the sweeps that passed them. None if such frames are too many.
+    /// Finds knocks in the recording of one input, `line`, in order of time: frames in which a third of all
+    /// spectral lines are louder than noise and the ringing after the sweeps. Returns none if there are too
+    /// many such frames.
     pub fn knocks(&self, line: &[f64]) -> Vec<Knock> {
         let rate = self.sweep.rate;
         let size = ((FRAME * rate) as usize).next_multiple_of(2).max(16);
@@ -90,7 +94,7 @@ impl Sweeps<'_> {
         if loud.len() as f64 > MOST * scores.len() as f64 {
             return Vec::new();
         }
-        // Modes that beat grow slowly, each at its own time.
+        // Modes that beat grow slowly, and at different times.
         let sudden = |frames: &&[usize]| {
             let mut near = frames[0]..(frames[0] + RISE).min(powers.len());
             near.any(|frame| above(frame, &|line| powers[frame.saturating_sub(RISE)][line]) > STANDS_OUT)

@@ -24,12 +24,13 @@ const PASSED: f64 = 0.025;
 const OF_RINGING: f64 = 0.8;
 const PERIODS: f64 = 2.0;
 
-/// Ratio of frequencies up to which tones determine the decay time in a part of the band. Fewer tones make a chance estimate, more mix
-/// decay times of other frequencies in.
+/// Ratio of frequencies up to which tones determine the decay time in a part of the band. With fewer tones
+/// the estimate depends on chance; with more, decay times of other frequencies are mixed in.
 const NEAR: f64 = 1.3;
 
-/// Multiple of the highest resonance of exciters' housings above which tones are used. Nearer to it, what an exciter senses turns its phase
-/// within the width of a tone, more than the model can correct; doubled, tones of the lowest modes are lost.
+/// Multiple of the highest resonance of exciters' housings above which tones are used. Nearer to that
+/// resonance, the phase of an exciter's signal changes within the width of a tone, more than the model can
+/// correct; doubled, tones of the lowest modes are lost.
 const CLEAR_OF_HOUSINGS: f64 = 3.0;
 
 /// Longest part of the model's responses, in s, in which tones are searched, and (`IN_CELL`) number of them in a cell of the band.
@@ -37,11 +38,13 @@ const CLEAR_OF_HOUSINGS: f64 = 3.0;
 const SAID: f64 = 2.0;
 const IN_CELL: usize = 8;
 
-/// Largest error of the first estimate, in periods of the band's top: half a period away, a signal looks as if its sign were reversed.
+/// Largest error of the first estimate, in periods of the band's top: half a period away, a signal seems to
+/// have the opposite sign.
 const WITHIN: f64 = 0.75;
 
-/// Lengths of the model's responses, in periods of the band's top, with which the first estimate is tried, the whole ones first. Where the
-/// surface is not as its file says, the model's tones soon are out of step with those recorded: shorter ones are like them to the end.
+/// Lengths of the model's responses, in periods of the band's top, with which the first estimate is tried,
+/// the longest first. If the surface differs from its file, the model's tones soon get out of step with the
+/// recorded ones, so that shorter responses agree better.
 const BEGINNINGS: [f64; 5] = [f64::INFINITY, 64.0, 32.0, 16.0, 8.0];
 
 /// Smallest share of the sums over cells of the band that must agree on a latency for it to count.
@@ -108,7 +111,7 @@ pub fn latency(
         let own = if said.is_empty() { 0.0 } else { delay(&said, actuators, &cells, rate, most)?.0 };
         Some(late - own)
     };
-    // Where too little rings for a finer estimate, the first one stands.
+    // If too little rings for a finer estimate, the first one is returned.
     let Some(late) = of(&whole) else { return Ok([coarse, disagreement(&delays)]) };
     let mut alone: Vec<f64> = whole.iter().filter_map(|a| of(&[*a])).collect();
     alone.sort_unstable_by(f64::total_cmp);
@@ -126,10 +129,11 @@ fn disagreement(sorted: &[f64]) -> f64 {
 /// First estimate, to about a sample: the delays between recorded and modelled responses, ascending, at least one; and the sign of each
 /// actuator, 0 if it is silent.
 ///
-/// From the response of each actuator at itself; where voltage-driven coils or the housings of exciters damp the surface, from responses at
-/// other actuators, since the beginning of such an actuator's response at itself is mostly strongly damped motion that no mode of the band
-/// describes. The model's responses are cut off where they are then most like the recorded ones: all of a response of another surface may be
-/// most like it at any delay.
+/// From the response of each actuator at itself; where voltage-driven coils or the housings of exciters damp
+/// the surface, from responses at other actuators, since the beginning of such an actuator's response at
+/// itself is mostly strongly damped motion that no mode of the band describes. The model's responses are cut
+/// off at the length at which they resemble the recorded ones most: the whole response of a surface that
+/// differs may resemble the recorded one most at any delay.
 fn roughly(
     heard: &[Vec<Vec<f64>>],
     some: &[usize],
@@ -171,7 +175,7 @@ fn roughly(
     Ok((best.delays, best.signs))
 }
 
-/// First estimates with one length of the model's responses.
+/// First estimates of the latency, with one length of the model's responses.
 struct Rough {
     /// Delays in samples, of actuators that are not silent.
     delays: Vec<f64>,
@@ -187,8 +191,8 @@ fn beginning(response: &[f64], length: f64) -> impl Iterator<Item = f64> {
     response.iter().take(length as usize).enumerate().map(move |(i, x)| x * fade(i))
 }
 
-/// Parts of the band, each with about as many tones as can be resolved at once, and the number of tones that the model has in each with
-/// its edges.
+/// Parts of the band, each with about as many tones as can be resolved at once, and the number of tones of
+/// the model in each part including its edges.
 fn parts(model: &Hearing, band: Band) -> Vec<(Part, usize)> {
     let mut known: Vec<[f64; 2]> = model.tones().filter(|[hz, _]| *hz > 0.0).collect();
     known.dedup_by(|a, b| (a[0] - b[0]).abs() < 1e-9 * b[0]);
@@ -205,7 +209,7 @@ fn parts(model: &Hearing, band: Band) -> Vec<(Part, usize)> {
         let edge = Part::new(low, top, passed).edge;
         let last = known.get(place(low - edge) + TONES).map_or(top, |tone| tone[0]);
         let mut high = (last - edge).max(low + edge);
-        // Rather one part a little longer than another that is short.
+        // A short last part is joined to the one before.
         if top - high < 0.3 * (high - low) {
             high = top;
         }
@@ -284,7 +288,7 @@ impl Cells {
     }
 }
 
-/// Responses of the chosen actuators at each other by the model, within the band.
+/// Modelled responses of the chosen actuators at each other, within the band.
 fn said(
     heard: &[Vec<Vec<f64>>],
     some: &[usize],

@@ -7,19 +7,19 @@ use unripple_physics::Medium;
 /// 1e-4.
 const POINTS: usize = 256;
 
-/// Shift of a sheet's natural frequencies: with its tension, each by the share of tension in its elastic energy; those
-/// of a plate without tension with its stiffness (temperature), all by the same share.
+/// Shift of a sheet's natural frequencies with its tension, each by the share of tension in its elastic
+/// energy; those of a plate without tension shift with its stiffness (temperature), all by the same share.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Law {
     step: f64,
     /// Relative change of the square of a frequency per relative change of tension or stiffness, from 0 to 1.
     follows: Vec<f64>,
-    /// Whether tension changes; otherwise bending stiffness does.
+    /// Whether the changes are changes of tension; otherwise they are changes of bending stiffness.
     pub tension: bool,
 }
 
 impl Law {
-    /// The law of a sheet, up to `top` Hz.
+    /// Computes the frequency shifts of a sheet, up to `top` Hz.
     pub fn of(sheet: &Sheet, top: f64) -> Self {
         let (medium, tension) = (Medium::of(sheet), sheet.tension > 0.0);
         let step = top / (POINTS - 1) as f64;
@@ -45,8 +45,8 @@ impl Law {
         self.sloped(hz, |hz| hz * self.ratio(hz, change))
     }
 
-    /// The frequency (Hz) that moves to `hz` under a relative change of tension or stiffness, and its derivative by
-    /// `hz`. To first order in the change of the share of bending.
+    /// The frequency (Hz) that moves to `hz` under a relative change of tension or stiffness, and its
+    /// derivative by `hz`. Accurate to first order in the change of the share of bending.
     pub fn unchanged(&self, hz: f64, change: f64) -> [f64; 2] {
         if !self.tension {
             let ratio = self.ratio(hz, change);

@@ -1,16 +1,17 @@
-//! Correction of a recording to the clock and the time of the played signal.
+//! Correction of a recording to the clock and the time axis of the played signal.
 
 use crate::signals::shift;
 use unripple_dsp::resample;
 
-/// The corrections to a recording.
+/// The corrections to a recording: clock error, delay, lost samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Mend {
     /// Relative error of the recording's clock, positive if it is fast.
     pub quick: f64,
     /// Delay of the recording, in samples.
     pub late: f64,
-    /// Number of samples lost (negative: recorded twice), and the sample at which that happened, once the clock is corrected.
+    /// Number of samples lost (negative: recorded twice), and the sample at which they were lost, counted
+    /// after the correction of the clock.
     pub lost: Option<(i64, usize)>,
 }
 
@@ -27,7 +28,8 @@ impl Mend {
         self.quick.abs() * samples as f64 >= LEAST
     }
 
-    /// The corrected recording, of the same length, zero where nothing is known.
+    /// The corrected recording, of the same length; samples about which the recording has no information are
+    /// zero.
     pub fn of(&self, line: &[f64]) -> Vec<f64> {
         let samples = line.len();
         let mut mended = line.to_vec();
@@ -66,7 +68,7 @@ pub(super) fn place(heard: &[&[f64]], expected: &[Vec<f64>], lost: i64, between:
     let [from, to] = between;
     let length = heard.first().map_or(0, |line| line.len());
     let to = to.min(length);
-    // Squared residual at a sample if nothing is missing before it, less that if all is.
+    // Squared residual at a sample if none of the lost samples precedes it, minus that if all of them do.
     let more = |i: usize| -> f64 {
         let one = |(heard, expected): (&&[f64], &Vec<f64>)| {
             let x = heard.get(i).copied().unwrap_or(0.0);

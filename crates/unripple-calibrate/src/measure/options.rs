@@ -1,4 +1,4 @@
-//! How responses are measured: sweeps, pauses, repeats.
+//! Options of measuring responses: sweeps, pauses, repeats, limits of quality.
 
 use super::{Channel, Knocked};
 use crate::CalibrateError;
@@ -12,40 +12,42 @@ const USUAL_DECAY: f64 = 0.07;
 /// Options of a measurement: sweep, pauses, repeats, limits of quality.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasureOptions {
-    /// Seconds of an actuator's sweep.
+    /// Duration of one actuator's sweep, in s.
     pub sweep: f64,
     /// Lowest frequency swept, in Hz.
     pub start_hz: f64,
     /// Highest frequency swept, as a multiple of the top of the surface's band.
     pub stop_over_band: f64,
-    /// Drive, as a share of the surface's limit.
+    /// Amplitude of the sweep, as a share of the surface's drive limit.
     pub level: f64,
-    /// Seconds that the surface takes to come to rest; the responses of actuators are kept that far apart.
+    /// Time in which the surface comes to rest, in s; the responses to successive actuators are at least
+    /// that far apart.
     pub settle_time: f64,
-    /// Seconds of each response that are kept.
+    /// Duration of each response that is stored, in s.
     pub response_length: f64,
-    /// Number of recordings of each place, which are averaged.
+    /// Number of recordings of each place; their responses are averaged.
     pub repeats: usize,
-    /// Harmonics up to this order are kept apart from the responses.
+    /// Highest order of harmonics that the timing of the sweeps separates from the responses.
     pub highest_order: usize,
-    /// Number of times that a bad place is measured again before it is left as bad.
+    /// Number of times that a bad place is measured again before it is stored as bad.
     pub retries: u64,
-    /// Signal-to-noise ratio below which a response is bad, in dB.
+    /// Smallest signal-to-noise ratio of a good response, in dB.
     pub min_snr_db: f64,
-    /// Distortion above which a response is bad, as a share of its power, in dB.
+    /// Largest harmonic distortion of a good response, relative to its power, in dB.
     pub max_distortion_db: f64,
     /// Latency of the device, in samples.
     pub latency: f64,
-    /// Delay of the probe relative to the sensors, in s; `None` to find it.
+    /// Delay of the probe relative to the sensors, in s; `None` if it is to be determined.
     pub probe_delay: Option<f64>,
     /// Whether measured responses are compared with a model of the surface.
     pub model: bool,
-    /// Actuators that are left out, since they are dead: their responses are not checked.
+    /// Indices of actuators that are left out because they are dead: their responses are not checked.
     pub without: Vec<usize>,
 }
 
 impl Default for MeasureOptions {
-    /// A sweep of 0.5 s from 60 Hz to a fifth above the band at the full limit, once; rest after 0.35 s, 100 ms kept.
+    /// One sweep of 0.5 s from 60 Hz to a fifth above the band at the full limit; rest after 0.35 s, 100 ms
+    /// of each response stored.
     fn default() -> Self {
         Self {
             sweep: 0.5,
@@ -79,19 +81,22 @@ const BENEATH: f64 = 0.5;
 /// Highest end of a sweep, relative to the sample rate: a tenth of the range below half of it is left for the filters of converters.
 const HIGHEST: f64 = 0.45;
 
-/// Largest number of repeats. They bring 20 dB; where that is not enough, another probe is needed.
+/// Largest number of repeats. Averaging that many improves the signal-to-noise ratio by 20 dB; if that is
+/// not enough, another probe is needed.
 pub const MOST_REPEATS: usize = 99;
 
-/// Longest response that is kept, in s: it bounds memory, and no sheet rings that long.
+/// Longest duration of a response that is stored, in s: it bounds memory, and no sheet rings that long.
 pub const MOST_KEPT: f64 = 60.0;
 
 impl MeasureOptions {
-    /// Options for a surface that is expected to be like a model: sweep, settle time and response length in proportion to the slowest
-    /// decay in the band, and those of [`MeasureOptions::default`] for decay times up to 70 ms. The sweep begins below the lowest
-    /// mode, at 60 Hz at the highest. Of a surface that rings for more than 42 s, a minute is kept.
+    /// Options suited to the decay times of a model of the surface: durations of sweep, pause and response
+    /// in proportion to the slowest decay in the band, but at least those of [`MeasureOptions::default`],
+    /// which are for decay times up to 70 ms. The sweep begins below the lowest mode, and at 60 Hz at most.
+    /// If a surface rings for more than 42 s, a minute of each response is stored.
     ///
-    /// A response has decayed to e⁻⁵ when the next one begins. The second harmonic precedes the linear response by about 1.2 decay
-    /// times, for a sweep from 60 Hz to 3.6 kHz. Both hold for slow and quick surfaces alike.
+    /// A response has decayed to e⁻⁵ when the next one begins. The second harmonic precedes the linear
+    /// response by about 1.2 decay times, for a sweep from 60 Hz to 3.6 kHz. Both hold for surfaces with
+    /// long and with short decay times.
     pub fn for_model(model: &ModalResponses) -> Self {
         let usual = Self::default();
         let from = lowest(model).map_or(usual.start_hz, |hz| (BELOW * hz).clamp(LOWEST, usual.start_hz));
@@ -104,7 +109,8 @@ impl MeasureOptions {
         Self { sweep, start_hz: from, settle_time: ringing, response_length: kept, ..usual }
     }
 
-    /// Warnings, one sentence each, of times that are too short for a surface that is expected to be like a model.
+    /// Warnings, one sentence each, about durations (sweep, pause, response) that are too short for the
+    /// decay times of a model of the surface.
     pub fn warnings(&self, model: &ModalResponses) -> Vec<String> {
         let suited = Self::for_model(model);
         let decay = 1e3 * slowest_decay(model, self.start_hz);
@@ -177,8 +183,8 @@ impl MeasureOptions {
         (self.stop_over_band * top).min(HIGHEST * rate)
     }
 
-    /// Why a channel is bad, in words: a knock, unrecognised sweeps or the first response below the limits; `None` if it is good.
-    /// `each` names what its responses belong to, such as an actuator.
+    /// The reason why a channel is bad, in words: a knock, unrecognised sweeps or the first response below
+    /// the limits; `None` if it is good. `each` names what a response belongs to, such as "actuator".
     pub(super) fn fault(&self, channel: &Channel, each: &str) -> Option<String> {
         let matters = |knock: &&Knocked| !knock.left_out && knock.share_db > -self.min_snr_db;
         if let Some(knock) = channel.account.knocks.iter().find(matters) {
@@ -231,12 +237,13 @@ impl MeasureOptions {
         if times <= MOST_REPEATS as f64 { times.ceil().max(1.0) as usize } else { 0 }
     }
 
-    /// Distance between the responses of successive sweeps, in samples, at least as many as are kept of them.
+    /// Distance between the responses of successive sweeps, in samples, at least the stored length of a
+    /// response.
     pub(super) fn apart(&self, rate: f64) -> usize {
         ((self.settle_time * rate).round() as usize).max(self.samples(rate))
     }
 
-    /// Number of samples kept of a response, at `rate` samples per second.
+    /// Number of samples of each response that are stored, at `rate` samples per second.
     pub fn samples(&self, rate: f64) -> usize {
         (self.response_length * rate).round() as usize + 1
     }

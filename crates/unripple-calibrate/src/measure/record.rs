@@ -3,15 +3,16 @@
 use crate::CalibrateError;
 use unripple_core::Device;
 
-/// Blocks of silence before a recording: by their end a device has counted the blocks that it missed in a pause.
+/// Number of blocks of silence played before a recording, by whose end a device has counted the blocks that
+/// it lost in a pause.
 pub const SILENCE: usize = 8;
 
 /// Plays signals on some outputs of a device and returns the recordings of some inputs.
 ///
-/// [`SILENCE`] blocks come first and are not returned, for devices that count what was missed in a pause only when they run
-/// again. `drive[i]` is sent to output `outputs[i]`, in the actuators' own unit, silence to all others; it is continued
-/// with silence until `samples` have passed. The result is `[input][sample]`, of `samples` samples or a few more, to the
-/// end of a block.
+/// [`SILENCE`] blocks come first and are not returned, for devices that count blocks lost in a pause only
+/// when they run again. `drive[i]` is sent to output `outputs[i]`, in the unit of the actuators' drive, and
+/// silence to all other outputs; after its end, silence is sent until `samples` have passed. The result is
+/// `[input][sample]`, of `samples` samples or a few more, to the end of a block.
 ///
 /// # Errors
 /// [`CalibrateError::Device`] from the device; [`CalibrateError::Gap`] if it lost blocks meanwhile, so that the recording

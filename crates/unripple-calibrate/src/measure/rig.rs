@@ -17,8 +17,8 @@ pub trait Rig {
     /// [`CalibrateError::Rig`] if the point cannot be reached.
     fn ready(&mut self, number: usize, at: Point, attempt: u64) -> Result<(), CalibrateError>;
 
-    /// Has the surface tapped at a point, at some time in the recording that follows, [`SILENCE`](super::SILENCE) blocks from
-    /// now. It is called after [`Rig::ready`].
+    /// Makes sure that the surface is tapped at a point at some time during the recording that begins
+    /// [`SILENCE`](super::SILENCE) blocks from now. It is called after [`Rig::ready`].
     ///
     /// # Errors
     /// [`CalibrateError::Rig`] if the surface cannot be tapped there.

@@ -14,21 +14,24 @@ use unripple_core::{Layout, ModalResponses, PROBE, Point, Surface};
 /// recording.
 const LATEST: f64 = 0.25;
 
-/// Samples before time 0 that deconvolved responses begin with, for latency and noise: 5 ms at 48 kHz.
+/// Number of samples before time 0 with which deconvolved responses begin, for latency and noise: 5 ms at 48
+/// kHz.
 pub(super) const LEAD: usize = 240;
 
-/// Signal-to-noise ratio of a sensor's whole recording, in dB, above which noise is not the reason for sweeps that are not
-/// recognised.
+/// Signal-to-noise ratio of a sensor's whole recording, in dB, above which noise cannot be the reason for
+/// unrecognised sweeps.
 const CLEAR_DB: f64 = 15.0;
 
 /// Largest number of samples of the drive of all actuators and of all recordings of a place: 4 GiB. Twice as many take twice the memory.
 const MOST_VALUES: usize = 1 << 29;
 
-/// Uncertainty of the latency, in samples, up to which no model is fitted: the latency is wanted to a twentieth, and the fit takes ten
-/// seconds. At half of it, a fit would be made where housings are so strongly damped that it is 0.15 samples off.
+/// Largest uncertainty of the latency, in samples, at which no model is fitted: the latency is needed to a
+/// twentieth of a sample, and the fit takes ten seconds. At half of it, a model would be fitted to surfaces
+/// whose housings are so strongly damped that its latency is wrong by 0.15 samples.
 const AGREE: f64 = 0.05;
 
-/// Largest number of sensors from which clock, gaps and tension are found: more give the same and take longer.
+/// Largest number of sensors from which clock, gaps and tension are found: with more, the result is the same
+/// and takes longer.
 const TELLING: usize = 8;
 
 /// A plan for measuring at any number of places, with all actuators driven one after the other.
@@ -58,22 +61,22 @@ pub struct Session {
 /// Which inputs are recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Listen {
-    /// The probe alone.
+    /// The input of the probe.
     Probe,
-    /// Each actuator's own sensor.
+    /// The inputs of all actuators' sensors.
     Sensors,
 }
 
-/// One recording of some inputs, corrected.
+/// One recording of some inputs, corrected for clock, delay and gaps.
 pub(super) struct Take {
     /// The recordings, `[input][sample]`.
     pub lines: Vec<Vec<f64>>,
-    /// What was found about the recording, and the corrections that it calls for.
+    /// Findings about the recording, and the corrections that follow from them.
     pub verdict: Verdict,
 }
 
 impl Session {
-    /// A plan for a surface's actuators on a device with these wires.
+    /// A plan for measuring a surface whose actuators are connected to a device by `wires`.
     ///
     /// # Errors
     /// [`CalibrateError::Recording`] for a device of another rate; [`CalibrateError::Range`] and [`CalibrateError::Dsp`] for
@@ -128,9 +131,10 @@ impl Session {
         })
     }
 
-    /// Sets the reference for all later takes: responses between actuators, measured with [`Listen::Sensors`] or read from a
-    /// library. Later takes are corrected to its clock, its latency and its tension. Responses that are all zeros, of dead
-    /// actuators and bad sensors, are left out.
+    /// Sets the reference for all later takes: responses between actuators, measured with
+    /// [`Listen::Sensors`] or read from a library. Later takes are corrected to the clock, latency and
+    /// tension of this reference. Responses that are all zeros, of dead actuators and bad sensors, are left
+    /// out.
     ///
     /// # Errors
     /// [`CalibrateError::Count`] for another number of sensors or responses than actuators.
@@ -141,7 +145,7 @@ impl Session {
             let expected = count.to_string();
             return Err(CalibrateError::Count { what: "responses between actuators", expected, found });
         }
-        // As a library keeps them, so that a run that is resumed finds the same.
+        // Rounded as libraries store them, so that a resumed run has the same values.
         let kept = |channel: &Channel| -> Vec<Vec<f64>> {
             let rounded = |response: &Vec<f64>| response.iter().map(|h| f64::from(*h as f32)).collect();
             channel.responses.iter().map(rounded).collect()
@@ -160,13 +164,14 @@ impl Session {
         &self.wires
     }
 
-    /// Duration of the recordings of one place, in s, repeats included, without the time in which the surface comes to rest.
+    /// Duration of all recordings of one place including repeats, in s, without the time before them in
+    /// which the surface comes to rest.
     pub fn seconds(&self) -> f64 {
         self.options.repeats as f64 * self.heard as f64 / self.sweep.rate
     }
 
-    /// Plays the sweeps and finds the responses: one channel for the probe, or one for each sensor. `number`, `at` and `attempt`
-    /// are those of [`Rig::ready`].
+    /// Plays the sweeps, records, and computes the responses: one [`Channel`] for the probe, or one for each
+    /// sensor. `number`, `at` and `attempt` are those of [`Rig::ready`].
     ///
     /// # Errors
     /// [`CalibrateError::Recording`] without an input for the probe, for clocks too far apart, or for samples lost at a place
@@ -257,10 +262,11 @@ impl Session {
         judge.judge(lines)
     }
 
-    /// Latency of the device and its uncertainty, both in samples: from the reference channel if there is one (uncertainty 0),
-    /// otherwise from responses between actuators, by [`latency`]; where that is uncertain for damping that couples modes, also by a
-    /// model that is fitted to these responses ([`verify::late`]), unless [`MeasureOptions::model`] is false. `None` if there is neither
-    /// reference nor sensor.
+    /// Latency of the device and its uncertainty, both in samples: from the reference channel if there is
+    /// one (uncertainty 0), otherwise from responses between actuators, by [`latency`]; if that is uncertain
+    /// because damping couples modes, also from a model that is fitted to these responses
+    /// ([`verify::late`]), unless [`MeasureOptions::model`] is false. `None` if there is neither reference
+    /// nor sensor.
     ///
     /// # Errors
     /// Those of the rig, of [`record`] and of [`latency`]; of [`Session::measure`] for clocks and samples lost.
@@ -298,8 +304,8 @@ impl Session {
         let hearing = Hearing::of(&self.surface, model)?;
         let [mut late, spread] = latency(&windows, &hearing, LEAD, self.sweep.rate, self.band)?;
         if self.options.model && !hearing.in_step() && spread > AGREE {
-            // The phases of tones out of step are corrected by the file's model. A fitted one gives another estimate, and each counts
-            // by its uncertainty.
+            // The phases of coupled tones are corrected with the model of the surface file. A fitted model
+            // gives a second estimate; the two are weighted by their uncertainties.
             if let Some([left, error]) = self.left(&windows, late) {
                 late += left * spread.powi(2) / (spread.powi(2) + error.powi(2));
             }
@@ -307,8 +313,8 @@ impl Session {
         Ok(Some([late + known, spread]))
     }
 
-    /// What a latency leaves of the delay of responses between actuators, and the uncertainty of that, in samples, by a model fitted to
-    /// them; `None` without a good one.
+    /// Remaining delay of the responses between actuators after a latency is removed, and its uncertainty,
+    /// in samples, from a model fitted to them; `None` if no good model is found.
     fn left(&self, windows: &[Vec<Vec<f64>>], latency: f64) -> Option<[f64; 2]> {
         let (count, rate) = (windows.len(), self.sweep.rate);
         let pair = |n: usize| match windows[n % count].get(n / count) {
@@ -321,8 +327,8 @@ impl Session {
         Some([left.value * rate, left.error * rate])
     }
 
-    /// The responses to all actuators from the recording of one input, `[actuator][sample]`, each as long as the schedule keeps
-    /// them apart, lead included.
+    /// The responses to all actuators from the recording of one input, `[actuator][sample]`, each as long as
+    /// their distance in the schedule, lead included.
     fn windows(&self, heard: &[f64]) -> Result<Vec<Vec<f64>>, CalibrateError> {
         let whole = self.whole(heard)?;
         let cut = |actuator: usize| {
@@ -332,8 +338,8 @@ impl Session {
         Ok((0..self.wires.drives.len()).map(cut).collect::<Result<Vec<_>, _>>()?)
     }
 
-    /// Why a channel is bad, in words: a knock, unrecognised sweeps or the first response below the limits; `None` if it is
-    /// good.
+    /// The reason why a channel is bad, in words: a knock, unrecognised sweeps or the first response below
+    /// the limits; `None` if it is good.
     pub fn fault(&self, channel: &Channel) -> Option<String> {
         self.options.fault(channel, "actuator")
     }

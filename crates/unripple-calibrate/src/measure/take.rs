@@ -1,4 +1,4 @@
-//! One recording, brought to the clock, time and tension of the first.
+//! One recording (take), corrected to the clock, time and tension of the first.
 
 use super::account::{Account, Lost};
 use super::apart::Apart;
@@ -22,14 +22,14 @@ const SURE: f64 = 5.0;
 /// Error of the clock, in parts per million, below which clocks count as equal, however small the standard error.
 const LEAST_PPM: f64 = 0.2;
 
-/// Relative change of tension below which it counts as none, however small the standard error.
+/// Relative change of tension below which the change counts as zero, however small the standard error.
 const LEAST_CHANGE: f64 = 2e-5;
 
-/// Fewest sweeps that an error of the clock is found from, unless they are the only two and very alike.
+/// Fewest sweeps from which an error of the clock is found, unless there are only two, which correlate well.
 const FEWEST: usize = 3;
 
-/// Correlation that two sweeps need when there are no others. By chance two sweeps hardly ever correlate that well, as their responses
-/// differ.
+/// Smallest correlation of two sweeps from which an error of the clock is found when there are no others. By
+/// chance two sweeps hardly ever correlate that well, as their responses differ.
 const ALIKE: f64 = 0.95;
 
 /// Largest unexplained rms deviation of the sweeps' times that is accepted, as a share of the shortest period swept: it costs a focus 2 %
@@ -39,11 +39,12 @@ const HARMLESS: f64 = 1.0 / 32.0;
 /// Function that deconvolves the recording of one input by the sweep; the result is periodic.
 type Deconvolve<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, CalibrateError> + 'a;
 
-/// What a take is compared with: the first take, the schedule, the band.
+/// Everything with which a take is compared: the first take, the schedule, the band.
 pub(super) struct Judge<'a> {
     /// Indices of the actuators whose sensors are used; empty if a reference channel, which records the sent signal, is used instead.
     pub sensors: &'a [usize],
-    /// Responses at these sensors in the first take, `[sensor][actuator][sample]` from time 0; `None` in the first take itself.
+    /// Responses at the sensors of `sensors` in the first take, `[sensor][actuator][sample]` from time 0;
+    /// `None` in the first take itself.
     pub known: Option<&'a [Vec<Vec<f64>>]>,
     /// First sample of each actuator's sweep.
     pub starts: &'a [usize],
@@ -51,9 +52,10 @@ pub(super) struct Judge<'a> {
     pub sounding: usize,
     /// The signals that are played, `[output][sample]`.
     pub drive: &'a [Vec<f64>],
-    /// Samples before time 0 that a response begins with.
+    /// Number of samples before time 0 with which a response begins.
     pub lead: usize,
-    /// Samples of a response that are compared, lead included: without the sweeps before and after.
+    /// Number of samples of a response that are compared, lead included: few enough to exclude the
+    /// neighbouring sweeps.
     pub length: usize,
     /// Latency of the device, in samples.
     pub latency: f64,
@@ -69,16 +71,18 @@ pub(super) struct Judge<'a> {
     pub clear: &'a dyn Fn(&[f64]) -> bool,
 }
 
-/// The findings on a take, and the corrections that they call for.
+/// The findings on a take, and the corrections that follow from them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Verdict {
     /// Account of the recording, for the user.
     pub account: Account,
     /// Corrections of clock, delay and gaps.
     pub mend: Mend,
-    /// Relative change of tension at the start of each sweep, and its rate per second; `None` if there is none.
+    /// Relative change of tension at the start of each sweep, and its rate per second; `None` if tension has
+    /// not changed.
     pub changes: Option<Vec<[f64; 2]>>,
-    /// Indices of sweeps that the sensors recorded otherwise than in the first take, where noise is not the reason.
+    /// Indices of sweeps whose sensor signals differ from those of the first take for other reasons than
+    /// noise.
     pub unlike: Vec<usize>,
 }
 
@@ -113,7 +117,8 @@ impl Judge<'_> {
         Ok(verdict)
     }
 
-    /// Sweeps that the sensors recorded in the first take and do not recognise now, though the recording is well above the noise.
+    /// Sweeps that are in the first take and that are not recognised in this one, although the recording is
+    /// well above the noise.
     fn unlike(
         &self,
         verdict: &Verdict,
@@ -194,7 +199,7 @@ impl Judge<'_> {
         Ok(near)
     }
 
-    /// Adds the corrections that the delays call for; returns whether there are any new ones.
+    /// Adds the corrections that follow from the delays; returns whether there are any new ones.
     fn learn(
         &self,
         verdict: &mut Verdict,
@@ -221,13 +226,13 @@ impl Judge<'_> {
         if timing.clock {
             verdict.account.clock_ppm = Some(ppm);
         }
-        // Sweeps compared with each other show nothing of what is common to all.
+        // Comparing sweeps with each other does not show a delay common to all.
         if self.known.is_some() {
             new |= timing.late.abs() >= LEAST_LATE;
             verdict.mend.late += timing.late;
             verdict.account.late = Some(verdict.mend.late);
         }
-        // The place is searched once all else is right.
+        // The place is searched after everything else is corrected.
         if let Some((lost, numbers)) = timing.lost.filter(|_| !new) {
             self.lose(verdict, lost, numbers, lines)?;
             new = true;
@@ -266,7 +271,7 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// The signal that a sensor should record, by its responses to each actuator in the first take.
+    /// The signal that a sensor should record, from its responses to each actuator in the first take.
     fn expected(&self, known: &[Vec<f64>], samples: usize) -> Vec<f64> {
         let mut sum = vec![0.0; samples];
         for (response, drive) in known.iter().zip(self.drive) {
@@ -291,7 +296,8 @@ impl Judge<'_> {
         let course = Course::of(&known);
         let first_last = [0, self.starts.len() - 1].map(|i| course.at(self.starts[i] as f64 / self.rate)[0]);
         verdict.account.drift = Some(first_last);
-        // A single change may stand out by chance: it counts as drift if those of half of the sweeps do.
+        // A single change may be significant by chance: tension counts as drifting if the changes of half of
+        // the sweeps are.
         if 2 * known.iter().filter(|(_, apart)| sure(apart)).count() >= known.len() {
             let at = |start: &usize| course.at(*start as f64 / self.rate);
             verdict.changes = Some(self.starts.iter().map(at).collect());
@@ -301,10 +307,11 @@ impl Judge<'_> {
     }
 }
 
-/// Delay, in samples, below which no further round of correction follows.
+/// Smallest delay, in samples, that is followed by another round of correction.
 const LEAST_LATE: f64 = 0.02;
 
-/// Change of tension over the time of a take: a straight line, or straight lines from sweep to sweep where one does not fit.
+/// Change of tension over the time of a take: a straight line, or straight lines from sweep to sweep if one
+/// does not fit.
 struct Course {
     line: Option<[f64; 2]>,
     known: Vec<[f64; 2]>,

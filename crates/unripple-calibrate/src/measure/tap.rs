@@ -4,15 +4,18 @@ use super::force::{Force, TapOptions};
 use crate::CalibrateError;
 use crate::signals::{Band, CrossSpectra, Inversion};
 
-/// Share of the largest power at which a tap counts as heard: what comes before is weaker, and not a tap's length earlier.
+/// Power, as a share of the largest, at which a tap counts as detected: its earlier part is weaker, and
+/// shorter than a tap.
 const HEARD: f64 = 0.01;
 
-/// Factor above the power of noise at which a tap counts as heard: averages over `AVERAGED` rarely vary by more than a factor of three.
-/// Where noise is so loud that this is above `LOUD` of the largest power, that part is the tap.
+/// Power, as a multiple of that of noise, at which a tap counts as detected: averages over `AVERAGED` rarely
+/// vary by more than a factor of three. If noise is so loud that this exceeds the share `LOUD` of the
+/// largest power, the latter is used.
 const ABOVE: f64 = 6.0;
 const LOUD: f64 = 0.25;
 
-/// Share of the recording that is quieter than what counts as noise: silence before a tap, and what follows its ringing, are more of it.
+/// Quantile of the power over the recording that is used as the power of noise: the silence before a tap and
+/// after its ringing takes a larger share of the time.
 const QUIET: f64 = 0.2;
 
 /// Time in s over which power is averaged, a quarter of a tap's usual length: half of it would leave more of the noise's variation, twice
@@ -24,24 +27,27 @@ const AVERAGED: f64 = 0.625e-3;
 pub struct Tapped {
     /// Response of each actuator at the place, by reciprocity, in m/s per unit impulse, which is at time 0.
     pub responses: Vec<Vec<f64>>,
-    /// Sample of each recording with which its tap may begin.
+    /// Earliest sample of each recording at which its tap may begin.
     pub begins: Vec<usize>,
-    /// Force of each tap in N from there on, at the rate of the recording; empty for one that came too late to be heard out.
+    /// Force of each tap, in N, from its sample in `begins` on, at the rate of the recording; empty for a
+    /// tap so late that its response was not recorded to the end.
     pub forces: Vec<Vec<f64>>,
-    /// Share of the power of the early signals that force and model do not explain.
+    /// Share of the power of the early signals that the estimated force and the model do not explain.
     pub unexplained: f64,
 }
 
 /// Responses of actuators at a place from taps there, of any shape and strength, recorded by the actuators as sensors.
 ///
-/// The signal of sensor a is `s_a = h_a * f`, with the same force f for all. First f is estimated, as the force, zero but for
-/// [`TapOptions::span`], that with the model's responses best explains the signals until [`TapOptions::early`] later, in the least-squares
-/// sense; then each h_a is s_a deconvolved by f, all taps together. The model thus determines the strength and fine shape of a pulse of a
-/// few milliseconds and of its bounces, and nothing of the responses themselves. A tap so late that the recording ends before its response
-/// is left out if another is not.
+/// The signal of sensor a is `s_a = h_a * f`, with the same force f for all. First f is estimated, as the
+/// force, zero but for [`TapOptions::span`], that with the model's responses best explains the signals until
+/// [`TapOptions::early`] later, in the least-squares sense; then each h_a is s_a deconvolved by f, all taps
+/// together. The model thus determines only the strength and fine shape of a pulse of a few milliseconds and
+/// of its bounces, and no other property of the responses. A tap so late that the recording ends before its
+/// response does is left out, unless all are.
 ///
-/// `heard` is `[tap][sensor][sample]`, latency removed; `model` is `[sensor][sample]` at the same place and rate, and longer than these
-/// times by one period of the band's lowest frequency. Sensors in `deaf` say nothing of the force.
+/// `heard` is `[tap][sensor][sample]`, latency removed; `model` is `[sensor][sample]` at the same place and
+/// rate, and longer than these times by one period of the band's lowest frequency. Sensors in `deaf`
+/// (indices) are not used for estimating the force.
 ///
 /// # Errors
 /// [`CalibrateError::Recording`] if no sensor has a signal; [`CalibrateError::Count`] if sensors and model disagree;
@@ -65,7 +71,8 @@ pub fn tapped(
     let hears = |signals: &[Vec<f64>]| -> Vec<Vec<f64>> {
         signals.iter().enumerate().filter(|(a, _)| !deaf.contains(a)).map(|(_, s)| s.clone()).collect()
     };
-    // The band's filter answers before the impulse; more than a tap's length before, that is of its lower edge, and little.
+    // The band's filter responds before the impulse; earlier than a tap's length before it, this is little,
+    // from the band's lower edge.
     let lead = (options.length * rate) as usize;
     let ahead = |response: &Vec<f64>| [vec![0.0; lead], response.clone()].concat();
     let model = hears(&limited(&model.iter().map(ahead).collect::<Vec<_>>())?);
@@ -98,7 +105,7 @@ pub fn tapped(
     Ok(Tapped { responses, begins, forces, unexplained: unexplained * scale })
 }
 
-/// The sample at which the power of all sensors first is that of a tap; `None` for silence.
+/// The first sample at which the power of all sensors is high enough for a tap; `None` for silence.
 fn heard_at(sensors: &[Vec<f64>], rate: f64) -> Option<usize> {
     let powers = powers(sensors, rate);
     let most = powers.iter().copied().fold(0.0, f64::max);

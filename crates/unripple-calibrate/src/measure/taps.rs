@@ -8,7 +8,8 @@ use crate::signals::{Band, Quality, shift, snr_db};
 use unripple_core::{Layout, ModalResponses, Point, Surface};
 use unripple_physics::sample;
 
-/// A plan for tapping places with all actuators as sensors: responses by reciprocity, with no probe.
+/// A plan for measuring by taps at places, with all actuators as sensors: responses follow by reciprocity,
+/// without a probe.
 #[derive(Clone, Debug)]
 pub struct TapSession {
     options: MeasureOptions,
@@ -24,8 +25,8 @@ pub struct TapSession {
 }
 
 impl TapSession {
-    /// A plan for a surface whose sensors have these wires. `model` holds the expected responses of the surface; [`tapped`]
-    /// says how little is taken from it.
+    /// A plan for a surface whose sensors have these wires. `model` holds the expected responses of the
+    /// surface; [`tapped`] uses it only to estimate the forces of taps.
     ///
     /// # Errors
     /// [`CalibrateError::Recording`] without sensors or for a device of another rate; [`CalibrateError::Range`] for options
@@ -60,26 +61,27 @@ impl TapSession {
         })
     }
 
-    /// The same plan with a factor on the signal of each sensor: below 0 for one of reversed sign.
+    /// This plan with a factor on the signal of each sensor, negative for a sensor of reversed sign.
     #[must_use]
     pub fn by_scales(self, scales: Vec<f64>) -> Self {
         Self { scales, ..self }
     }
 
-    /// The same plan with a model that was fitted to the responses between actuators. It knows masses on the sheet, holds for longer, so
-    /// that the bounces of taps are found, and tells the gains of sensors from those of drives, but for one factor common to all.
+    /// This plan with a model that was fitted to the responses between actuators. Such a model includes
+    /// masses on the sheet, is accurate for longer, so that the bounces of taps are found, and separates the
+    /// gains of sensors from those of drives, except for one factor common to all.
     #[must_use]
     pub fn by_fitted(self, fitted: &Fitted) -> Self {
         Self { fitted: Some(Box::new(fitted.clone())), tap: TapOptions::default(), ..self }
     }
 
-    /// Gain of an actuator's sensor over that of its drive, as far as it is known.
+    /// Gain of an actuator's sensor relative to that of its drive, from the fitted model; 1 without one.
     fn gain(&self, actuator: usize) -> f64 {
         let fitted = self.fitted.as_ref().and_then(|fitted| fitted.actuators.get(actuator));
         fitted.map_or(1.0, |actuator| actuator.sense.value / actuator.drive.value)
     }
 
-    /// Signal of each sensor to an impulse at a place, as the model has it.
+    /// Modelled signal of each sensor for an impulse at a place.
     fn expected(&self, at: Point) -> Vec<Vec<f64>> {
         // The band's filter is as long as a period of its lowest frequency, and a model that ends sooner ends differently.
         let seconds = self.tap.span() + self.tap.early + 1.0 / self.band.low[0].max(1.0);
@@ -95,8 +97,8 @@ impl TapSession {
         (0..self.sensors.len()).map(one).collect()
     }
 
-    /// Has a place tapped, as often as there are repeats, and finds the responses. `at` is in m, `attempt` counts the
-    /// recordings at this place from 0.
+    /// Records taps at a place, one for each repeat, and computes the responses from them. `at` is in m,
+    /// `attempt` counts the recordings at this place from 0.
     ///
     /// # Errors
     /// Those of the rig, of [`record`] and of [`tapped`].
@@ -140,8 +142,8 @@ impl TapSession {
         Ok(Channel { responses: found.responses, quality, ..Channel::default() })
     }
 
-    /// Signal to noise of a recorded tap within the band, as of a response of `samples` from the sample `begin` on. Noise is what the end
-    /// of the recording holds.
+    /// Signal-to-noise ratio, within the band, of a recorded tap's `samples` samples from the sample `begin`
+    /// on. The end of the recording counts as noise.
     fn snr_db(&self, sound: &[f64], begin: usize, samples: usize) -> Result<f64, CalibrateError> {
         let mut sound = sound.to_vec();
         self.band.limit(&mut sound, self.rate)?;
@@ -149,7 +151,8 @@ impl TapSession {
         Ok(snr_db(loud, &sound[sound.len() - sound.len() / 20..]))
     }
 
-    /// Why a channel is bad, in words: its first response with too little signal; `None` if it is good.
+    /// The reason why a channel is bad, in words: its first response with too little signal; `None` if it is
+    /// good.
     pub fn fault(&self, channel: &Channel) -> Option<String> {
         self.options.fault(channel, "sensor")
     }

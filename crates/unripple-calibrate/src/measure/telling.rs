@@ -8,15 +8,15 @@ use crate::signals::{Band, Delay};
 /// some more.
 const REACH: f64 = 0.12;
 
-/// Correlation below which a sweep is not recognised.
+/// Smallest correlation at which a sweep is recognised.
 const LEAST: f64 = 0.7;
 
-/// Correlation that the coarse search requires. Neighbouring sweeps are in its segment too, so that it is small even where all is
-/// well.
+/// Smallest correlation accepted by the coarse search, whose segment contains neighbouring sweeps, so that
+/// the correlation is small even without faults.
 const COARSE: f64 = 0.4;
 
-/// Number of sensors, the loudest ones, in the coarse search. The second decides where the first is spoilt by a knock; more take
-/// longer.
+/// Number of sensors, the loudest ones, in the coarse search. The second is needed when a knock disturbs the
+/// first; more take longer.
 const LOUDEST: usize = 2;
 
 /// Smallest energy of a sweep in the reference channel, relative to the loudest, with which the sweep counts as present.
@@ -37,7 +37,7 @@ pub(super) struct Telling<'a> {
     pub wholes: &'a [Vec<f64>],
     /// Sample of these recordings at which the response to each sweep begins, lead included.
     pub starts: &'a [usize],
-    /// Samples before time 0 that a response begins with.
+    /// Number of samples before time 0 with which a response begins.
     pub lead: usize,
     /// Samples per second.
     pub rate: f64,
@@ -56,8 +56,8 @@ pub(super) fn around(whole: &[f64], first: i64, length: usize) -> Vec<f64> {
 }
 
 impl Telling<'_> {
-    /// How each sweep differs from the responses of the same sensors in another take, `known[sensor][actuator][sample]` from time 0:
-    /// in delay and in tension. `None` for a sweep that is not recognised.
+    /// Delay and change of tension of each sweep relative to the responses of the same sensors in another
+    /// take, `known[sensor][actuator][sample]` from time 0. `None` for a sweep that is not recognised.
     pub fn beside(&self, known: &[Vec<Vec<f64>>]) -> Vec<Option<Apart>> {
         let mut change = Change::Near(0.0);
         let one = |(sweep, start): (usize, &usize)| {
@@ -85,7 +85,8 @@ impl Telling<'_> {
                     let known = around(&self.wholes[known], at, length);
                     self.compared(&[(&known, other)], near, self.lead, change)
                 };
-                // What comes at another time by more than the length of a response is only found by the other.
+                // If the delay exceeds the length of a response, only the comparison in the other direction
+                // finds it.
                 let apart = beside(i, from_b, j, from_a).or_else(|| {
                     beside(j, from_a, i, from_b).map(|apart| Apart {
                         late: -apart.late,
@@ -153,7 +154,7 @@ impl Telling<'_> {
         best.filter(|apart| apart.likeness >= LEAST)
     }
 
-    /// Delay of the found responses in whole samples, by correlation; `None` if it is too low.
+    /// Delay of the found responses in whole samples, by correlation; `None` if the correlation is too low.
     fn coarse(&self, known: &[(&[f64], usize)], at: i64) -> Option<i64> {
         let power = |signal: &[f64]| signal.iter().map(|x| x * x).sum::<f64>();
         let mut loudest: Vec<&(&[f64], usize)> = known.iter().collect();
@@ -164,14 +165,14 @@ impl Telling<'_> {
             let delay = Delay::between(&long, known, self.rate, self.band).ok()?;
             (!delay.inverted).then_some(delay)
         });
-        // The segment holds neighbouring sweeps too: the correlation is small even where all is well.
+        // The segment contains neighbouring sweeps too: the correlation is small even without faults.
         let best = found.max_by(|a, b| a.correlation.total_cmp(&b.correlation))?;
         (best.correlation >= COARSE).then(|| best.samples.round() as i64 - reach)
     }
 }
 
-/// The common difference of pairs; if they do not agree, that of the majority, without pairs that do not fit, as those of a dead
-/// sensor.
+/// Delay and change of tension common to all pairs; if the pairs do not agree, those of the majority,
+/// without pairs that do not fit, such as those of a dead sensor.
 fn agreed(pairs: Pairs<'_>, change: Change) -> Apart {
     let apart = pairs.apart(change);
     if apart.likeness >= LEAST {
@@ -181,8 +182,9 @@ fn agreed(pairs: Pairs<'_>, change: Change) -> Apart {
     pairs.without(&strange).map_or(apart, |others| others.apart(change))
 }
 
-/// Values of `count` items and their errors, from differences of pairs (the first item's value less the second's), each with its
-/// error: weighted least squares by damped Jacobi iterations, mean 0. `None` for items in no pair.
+/// Values of `count` items and their errors, from differences of pairs (the first item's value minus the
+/// second's), each with its error: weighted least squares by damped Jacobi iterations, mean 0. `None` for
+/// items in no pair.
 fn levelled(
     count: usize,
     pairs: &[(usize, usize, Apart)],

@@ -1,19 +1,21 @@
-//! Clock error and lost samples of one take, by the delays of its sweeps.
+//! Clock error and lost samples of one take, from the delays of its sweeps.
 
-/// A sweep of a take: when it began, how much later it came than it should have, and how sure that is.
+/// A sweep of a take: its start in the played signal, its delay in the recording, and the standard error of
+/// the delay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sweep {
     /// Number of the sweep, from 0.
     pub number: usize,
     /// First sample of the sweep in the played signal.
     pub start: f64,
-    /// Delay of the sweep against where it should be, in samples.
+    /// Delay of the recorded sweep relative to its expected time, in samples.
     pub late: f64,
     /// Standard error of `late`, in samples.
     pub error: f64,
 }
 
-/// Times of a take against its drive: `late + slope · start`, and from some sweep on `lost` samples less.
+/// Model of the delays of a take's sweeps: `late + slope · start`, and from some sweep on `lost` samples
+/// less.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Timing {
     /// Delay of a sweep that begins at sample 0, in samples.
@@ -24,19 +26,23 @@ pub(super) struct Timing {
     pub slope_error: f64,
     /// Whether there were enough sweeps to find an error of the clock; without it `slope` is 0.
     pub clock: bool,
-    /// Number of samples lost (negative: repeated), and the numbers of the last sweep before and the first after.
+    /// Number of samples lost (negative: repeated), and the numbers of the last sweep before the loss and of
+    /// the first after it.
     pub lost: Option<(i64, [usize; 2])>,
     /// Rms residual of the delays, in samples, over the sweeps that are used.
     pub rest: f64,
 }
 
-/// Deviation of delays, in samples, that is accepted for no reason of the clock's: the surface is not quite the same from take to take.
+/// Deviation of delays, in samples, that is accepted without an error of the clock: the surface differs a
+/// little from take to take.
 const SLACK: f64 = 0.25;
 
-/// Least number of samples that are taken to be lost: less is taken for an error of the clock.
+/// Smallest step of the delays, in samples, that counts as lost samples: a smaller one counts as an error of
+/// the clock.
 const LEAST_LOST: f64 = 1.5;
 
-/// Largest number of sweeps that sound while samples are lost: their delay is neither that before nor that after.
+/// Largest number of sweeps that are playing while samples are lost: their delay is neither that before nor
+/// that after the loss.
 const SOUNDING: usize = 2;
 
 impl Timing {
@@ -66,8 +72,8 @@ impl Timing {
         best.map(|(_, timing)| timing)
     }
 
-    /// The best fit to sweeps that no timing explains: a line, or one delay for two sweeps. Its standard error follows from the
-    /// residual.
+    /// The best-fitting timing for sweeps that no timing explains within the tolerance: a line, or one delay
+    /// for two sweeps. Its standard error follows from the residual.
     pub fn nearest(sweeps: &[Sweep]) -> Option<Self> {
         let near = if sweeps.len() < LINE { Self::level(sweeps) } else { Self::line(sweeps) }?;
         let slope_error = near.slope_error * (near.rest / error(sweeps).max(FLOOR)).max(1.0);
@@ -92,7 +98,7 @@ impl Timing {
         let kept: Vec<Sweep> = [&sweeps[..first], sweeps.get(first + hit..)?].concat();
         let after = sweeps.get(first + hit)?;
         let step = |sweep: &Sweep| if sweep.start >= after.start { -1.0 } else { 0.0 };
-        // With few sweeps a slope and a step would explain anything: there the clock is taken to be right.
+        // With few sweeps a slope and a step would explain anything: then the clock is assumed to be exact.
         let timing = if kept.len() < FEW {
             let fit = Fit::of(&kept, 2, |sweep| [1.0, step(sweep), 0.0])?;
             (Self { late: fit.x[0], rest: fit.rest, ..Self::default() }, fit.x[1])
@@ -114,7 +120,7 @@ impl Timing {
 /// Number of sweeps below which an error of the clock cannot be separated from a step.
 const FEW: usize = 5;
 
-/// Number of sweeps below which a line says nothing: it goes through any two.
+/// Fewest sweeps to which a line is fitted: it goes through any two.
 const LINE: usize = 3;
 
 /// Largest residual of an explanation of the delays, in samples.

@@ -12,15 +12,15 @@ const RINGING: f64 = 2.5;
 const ROWS: usize = 240;
 const FEWEST: usize = 12;
 
-/// Smallest power of a direction of the signal space that is kept: relative to the strongest, and (`OVER_NOISE`) relative to the lower
-/// quartile of all, which is noise.
+/// Smallest power of a direction of the signal space that is used: relative to the strongest, and
+/// (`OVER_NOISE`) relative to the lower quartile of all, which is noise.
 const LEAST: f64 = 1e-9;
 const OVER_NOISE: f64 = 20.0;
 
 /// Largest decay of a tone over the beginning that is left out, in nepers. One that decays more is not extrapolated back to time 0.
 const DEEPEST: f64 = 2.5;
 
-/// A part of a band, in Hz: all between `low` and `high`, with soft edges of width `edge` outside.
+/// A part of a frequency band: all between `low` and `high`, with soft edges of width `edge` outside.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     /// Lowest frequency, in Hz.
@@ -32,7 +32,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// A part whose soft edges ring for `passed` seconds.
+    /// The part of a band from `low` to `high` (Hz) whose soft edges ring for `passed` seconds.
     pub fn new(low: f64, high: f64, passed: f64) -> Self {
         Self { low, high, edge: RINGING / passed }
     }
@@ -53,31 +53,34 @@ pub(super) struct Tone {
     pub own: Vec<c64>,
 }
 
-/// Impulse responses of sensors to drives, equal in number, and the sample that is their time 0.
+/// Impulse responses of sensors to drives, as many sensors as drives, and the sample that is their time 0.
 pub(super) struct Heard<'a> {
     /// The responses, `[sensor][drive][sample]`.
     pub responses: &'a [Vec<Vec<f64>>],
-    /// Sample that is time 0; fractions count.
+    /// Sample, possibly fractional, that is time 0 of the responses.
     pub zero: f64,
     /// Samples per second.
     pub rate: f64,
 }
 
-/// The responses after their beginning in a part of the band, its lowest line at 0 Hz: sensors x drives at each instant.
+/// The responses after their beginning in a part of the band, shifted in frequency so that its lowest line
+/// is at 0 Hz: sensors x drives at each instant.
 struct Baseband {
     instants: Vec<Mat<c64>>,
     /// Time of each instant, in s.
     times: Vec<f64>,
-    /// Frequency that lies at 0, in Hz.
+    /// Frequency that is shifted to 0 Hz, in Hz.
     base: f64,
 }
 
-/// The tones within a part, `expected` being about how many there are with those at its edges.
+/// Finds the tones within a part of the band; `expected` is the approximate number of tones including those
+/// at its edges.
 ///
-/// Responses between several places that share their tones are those of a linear system: a shift by dt in time multiplies the
-/// directions of the signal space by the tones' e^{s dt} (the eigensystem realization algorithm: J.-N. Juang and R. S. Pappa, *J.
-/// Guidance* 8, 620, 1985). Tones that overlap are separated by their different amplitudes at the places; where two are not, their sum
-/// is still right. The beginning is not used, since it holds the quasi-static response of all modes above this band.
+/// Responses between several places that share their tones are those of a linear system: a shift by dt in
+/// time multiplies the directions of the signal space by the tones' e^{s dt} (the eigensystem realization
+/// algorithm: J.-N. Juang and R. S. Pappa, *J. Guidance* 8, 620, 1985). Tones that overlap are separated by
+/// their different amplitudes at the places; if two cannot be separated, their sum is still right. The
+/// beginning is not used, since it holds the quasi-static response of all modes above this band.
 pub(super) fn tones(heard: &Heard, part: &Part, expected: usize) -> Vec<Tone> {
     let count = heard.responses.len();
     let baseband = Baseband::of(heard, part);

@@ -1,4 +1,4 @@
-//! Which channel of a device is which actuator, sensor, probe or reference.
+//! Assignment of a device's channels to actuators, sensors, probe and reference.
 
 use crate::CalibrateError;
 use unripple_core::{Layout, PROBE, Port};
@@ -6,7 +6,7 @@ use unripple_core::{Layout, PROBE, Port};
 /// Name of the input that records the sent signal, the reference channel.
 pub const REFERENCE: &str = "reference";
 
-/// Channels of a device: actuators by name, their sensors by the same names, a probe, a reference.
+/// Channels of a device that are assigned to actuators, their sensors, a probe and a reference.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wires {
     /// Index of each actuator's output.
@@ -20,9 +20,9 @@ pub struct Wires {
 }
 
 impl Wires {
-    /// Assigns channels by name. `named` holds pairs of a name and the channel that it stands for, such as `("a1",
-    /// "playback_3")`, for outputs and inputs alike. Where no output at all has an actuator's name, actuators take the
-    /// outputs in order, and sensors and probe the inputs.
+    /// Assigns channels by name. `named` holds pairs of a name and the channel that it stands for, such as
+    /// `("a1", "playback_3")`, for outputs and inputs alike. If no output has an actuator's name, actuators
+    /// take the outputs in order, and sensors and probe the inputs.
     ///
     /// # Errors
     /// [`CalibrateError::Wire`] if an actuator has no output; it says which outputs there are and how to correct that.

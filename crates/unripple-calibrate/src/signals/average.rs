@@ -1,15 +1,16 @@
-//! Averages of repeats without outliers.
+//! Average of repeated recordings, without outliers.
 
 use super::same;
 use unripple_dsp::{DspError, mean_square};
 
-/// Which repeats are left out of an [`Average`].
+/// Criteria by which repeats are left out of an [`Average`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outliers {
-    /// A repeat is left out if it differs from the median of all by more than this many times what they usually differ
-    /// by (rms, the median over repeats).
+    /// A repeat is left out if its rms difference from the median signal exceeds this many times the usual
+    /// one, which is the median over all repeats.
     pub times: f64,
-    /// No repeat is left out that differs from the median by less (rms) than this share of the median's rms.
+    /// Smallest rms difference from the median signal, as a share of that signal's rms, at which a repeat
+    /// may be left out.
     pub least: f64,
 }
 
@@ -20,7 +21,7 @@ impl Default for Outliers {
     }
 }
 
-/// The mean of repeats of one signal, with what they say about the noise.
+/// The mean of repeats of one signal, with estimates of the power of signal and noise.
 ///
 /// ```
 /// use unripple_calibrate::signals::{Average, Outliers};
@@ -34,20 +35,23 @@ impl Default for Outliers {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Average {
-    /// Mean of the repeats kept.
+    /// Mean over the repeats that are not left out, sample by sample.
     pub mean: Vec<f64>,
-    /// Which repeats were kept.
+    /// Whether each repeat is part of the mean; outliers are not.
     pub kept: Vec<bool>,
-    /// Correlation of each repeat with the median of all, from −1 to 1; 0 for silence.
+    /// Correlation of each repeat with the median signal of all, from −1 to 1; 0 for silence.
     pub correlations: Vec<f64>,
-    /// Mean square of the noise in one repeat, estimated without bias; NaN if only one was kept.
+    /// Mean square of the noise in one repeat, estimated without bias; NaN if the mean is that of a single
+    /// repeat.
     pub noise: f64,
-    /// Mean square of the signal without noise, estimated without bias, at least 0; NaN if only one was kept.
+    /// Mean square of the signal without noise, estimated without bias, at least 0; NaN if the mean is that
+    /// of a single repeat.
     pub signal: f64,
 }
 
 impl Average {
-    /// The average of repeats, which must all have as many samples. With fewer than three, none is an outlier.
+    /// The average of repeats, which must have equal numbers of samples. With fewer than three, none is an
+    /// outlier.
     ///
     /// # Errors
     /// [`DspError::Size`] without repeats, or if their lengths differ.
@@ -79,7 +83,8 @@ impl Average {
         Ok(Self { mean, kept, correlations, noise, signal })
     }
 
-    /// Signal-to-noise ratio of the mean, in dB. That of one repeat is less by 10 log10 of the number of repeats kept.
+    /// Signal-to-noise ratio of the mean, in dB. That of one repeat is less by 10 log10 of the number of
+    /// repeats in the mean.
     pub fn snr_db(&self) -> f64 {
         let count = self.kept.iter().filter(|kept| **kept).count();
         10.0 * (self.signal * count as f64 / self.noise).log10()
@@ -98,7 +103,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     (sum / a.len().max(1) as f64).sqrt()
 }
 
-/// Inner product over the norms.
+/// Correlation: the inner product divided by both norms.
 pub(super) fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
     let norms = (mean_square(a) * mean_square(b)).sqrt() * a.len().max(1) as f64;
@@ -116,7 +121,7 @@ fn medians(repeats: &[&[f64]], samples: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The value in the middle, or the mean of the two; 0 without values.
+/// The median: the middle value, or the mean of the two middle ones; 0 without values.
 pub(super) fn median(values: &mut [f64]) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     match values.len() {

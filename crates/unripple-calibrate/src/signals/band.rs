@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_PI_2;
 use unripple_core::OutOfRange;
 use unripple_dsp::DspError;
 
-/// A band of frequencies with soft edges: nothing below `low[0]` and above `high[1]`, all between `low[1]` and
-/// `high[0]`, and squared sines between. In Hz.
+/// A band of frequencies with soft edges: weight 0 below `low[0]` and above `high[1]`, 1 between `low[1]`
+/// and `high[0]`, and squared sines in the edges. All in Hz.
 ///
 /// The softer an edge, the shorter it rings: about the inverse of its width in Hz, before and after an impulse, since
 /// a band is applied as a zero-phase filter.
@@ -29,13 +29,13 @@ impl Band {
     /// The band of all frequencies.
     pub const ALL: Self = Self { low: [0.0; 2], high: [f64::INFINITY; 2] };
 
-    /// The band from `low` to `high` (Hz), edges included: the lower one a bit more than half an octave wide, the
-    /// upper one a quarter.
+    /// The band from `low` to `high` (Hz), edges included: the lower edge is a bit more than half an octave
+    /// wide, the upper one a quarter of an octave.
     pub fn within(low: f64, high: f64) -> Self {
         Self { low: [low, 1.5 * low], high: [high / 1.2, high] }
     }
 
-    /// Amplitude that is let through at a frequency (Hz), a ratio from 0 to 1.
+    /// Factor of the band on amplitudes at a frequency (Hz), from 0 to 1.
     pub fn weight(&self, hz: f64) -> f64 {
         let rise = |[from, to]: [f64; 2]| (FRAC_PI_2 * (hz - from) / (to - from)).sin().powi(2);
         if hz < self.low[0] || hz > self.high[1] {

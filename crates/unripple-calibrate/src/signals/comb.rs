@@ -19,7 +19,7 @@ pub(super) struct Comb {
     turns: Vec<Complex<f64>>,
 }
 
-/// Workspace of one thread.
+/// Buffers of a [`Comb`]; each thread needs its own.
 pub(super) struct CombWork {
     /// The interleaved signals, one after another.
     parts: Vec<f64>,
@@ -30,14 +30,14 @@ pub(super) struct CombWork {
 }
 
 impl CombWork {
-    /// Number of samples of the signal that the workspace has room for.
+    /// Number of samples of the signal for which the buffers are made.
     pub fn size(&self) -> usize {
         self.parts.len()
     }
 }
 
-/// Largest number of interleaved signals: with more, joining them takes longer than is won. Half as many give up some of
-/// the speed.
+/// Largest number of interleaved signals: with more, joining them takes longer than the transforms save.
+/// Half as many are somewhat slower.
 const MOST: usize = 8;
 
 impl Comb {
@@ -88,8 +88,8 @@ impl Comb {
         }
     }
 
-    /// The inverse transform of `work.band`, all other lines being 0: the first samples of the signal, as many as
-    /// `signal` has. `work.band` is overwritten with products of the phase factors.
+    /// The inverse transform of `work.band`, with all other lines 0: fills `signal` with the first samples
+    /// of the result. `work.band` is overwritten with products of the phase factors.
     pub fn inverse(&self, work: &mut CombWork, signal: &mut [f64]) {
         let (length, end) = (self.size / self.teeth, self.first + self.turns.len());
         for part in work.parts.chunks_mut(length) {

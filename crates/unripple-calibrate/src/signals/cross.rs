@@ -6,8 +6,8 @@ use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 use unripple_dsp::DspError;
 
-/// Summed spectra of repeats of a drive and its recording: for drives that differ from repeat to repeat (taps), and for a
-/// reference channel, which records the drive on its way (after converters and amplifiers).
+/// Summed spectra of repeats of a drive and its recording: for drives that differ from repeat to repeat
+/// (taps), and for a reference channel, which records the drive after converters and amplifiers.
 ///
 /// The response is the least-squares one, `H = rate · Σ V D* / (Σ |D|² + ε)`, and the coherence the share of the
 /// recording's power that follows the drive linearly.
@@ -42,8 +42,8 @@ pub struct CrossSpectra {
 }
 
 impl CrossSpectra {
-    /// Sums for repeats of at most `samples` samples, silence included, of drive and recording alike; `rate` is in samples
-    /// per second.
+    /// Empty sums for repeats whose drive and recording each have at most `samples` samples, silence
+    /// included; `rate` is in samples per second.
     ///
     /// # Errors
     /// [`DspError::Size`] for 0 samples, [`DspError::Range`] if `rate` is not positive.
@@ -123,8 +123,9 @@ impl CrossSpectra {
         Ok(())
     }
 
-    /// Coherence at each spectral line, from 0 Hz to half the rate, each from 0 to 1; 0 where drive or recording is silent.
-    /// Of noise alone it is 1/n on average over n repeats: one repeat says nothing.
+    /// Coherence at each spectral line, from 0 Hz to half the rate, each from 0 to 1; 0 where drive or
+    /// recording is silent. For pure noise its expectation is 1/n for n repeats, so that a single repeat
+    /// gives no information.
     pub fn coherence(&self) -> Vec<f64> {
         let sums = self.cross.iter().zip(&self.drive).zip(&self.heard);
         sums.map(|((cross, drive), heard)| share(cross.norm_sqr(), drive * heard)).collect()

@@ -21,22 +21,24 @@ use unripple_dsp::{DspError, mean_square};
 pub struct Decay {
     /// Seconds in which the amplitude falls to 1/e.
     pub time: f64,
-    /// Standard error of `time` in seconds, from how the blocks scatter about the model.
+    /// Standard error of `time` in seconds, from the scatter of the blocks about the model.
     pub error: f64,
     /// Mean square of the response at its strongest moment, without noise.
     pub power: f64,
-    /// Mean square of the noise in which the decay ends; for a response without noise, of what is left at its end.
+    /// Mean square of the noise in which the decay ends; for a response without noise, that of its end.
     pub noise: f64,
 }
 
-/// Number of blocks that a response is divided into: twice as many follow the decay more finely, and scatter more each.
+/// Number of blocks into which a response is divided: twice as many follow the decay more finely, but each
+/// scatters more.
 const BLOCKS: usize = 200;
 
-/// Fewest blocks, from the strongest on, that a decay is fitted to. Three unknowns need some more than three, since
-/// blocks scatter.
+/// Fewest blocks, from the strongest on, to which a decay is fitted. Three unknowns need some more than
+/// three, since blocks scatter.
 const FEWEST: usize = 8;
 
-/// Least power over noise of the strongest block, a ratio: 5 dB. With half of it noise alone may pass for a decay.
+/// Smallest ratio of the strongest block's power to the noise: 5 dB. With half of it, noise alone may be
+/// taken for a decay.
 const LEAST_RATIO: f64 = 3.0;
 
 /// Largest number of steps of the descent, which settles in far fewer.

@@ -12,14 +12,14 @@ use unripple_dsp::DspError;
 /// Options of a deconvolution: band, regularisation, latency, lead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inversion {
-    /// The band that responses are limited to; the stimulus's own if `None`.
+    /// Band to which the responses are limited; if `None`, that of the stimulus.
     pub band: Option<Band>,
     /// Regularisation ε, added to the power of the stimulus at each spectral line before dividing by it, relative to
     /// the largest power in the band. The response at a line of power P is too small by about the share ε/P.
     pub regularisation: f64,
     /// Latency of the recording in samples, which may be fractional; it is removed from the responses.
     pub latency: f64,
-    /// Samples before time 0 that a response begins with.
+    /// Number of samples before time 0 with which a response begins.
     pub lead: usize,
 }
 
@@ -30,7 +30,7 @@ impl Default for Inversion {
     }
 }
 
-/// A plan that turns recordings of one stimulus into responses.
+/// A plan for deconvolving recordings of one stimulus into responses.
 ///
 /// With the recording `v[i] = Σ_j h[i-j] d[j] / rate`, spectra V, D of n lines, and the band's weight W, the response
 /// is the inverse transform of `rate · W · V D* / (|D|² + ε)`: the band-limited h, without the spectrum of the
@@ -60,7 +60,7 @@ pub struct Deconvolver {
     plan: Comb,
     heard: usize,
     rate: f64,
-    /// Factors of the spectral lines that the band lets through.
+    /// Factors on the spectral lines within the band.
     factors: Vec<Complex<f64>>,
 }
 
@@ -68,7 +68,7 @@ pub struct Deconvolver {
 pub struct Workspace(CombWork);
 
 impl Deconvolver {
-    /// A plan for recordings of `heard` samples.
+    /// A plan for deconvolving recordings of `heard` samples.
     ///
     /// # Errors
     /// [`DspError::Size`] if `heard` is not one period of a periodic stimulus, or is shorter than another one;
@@ -118,12 +118,12 @@ impl Deconvolver {
         Ok(Self { plan: Comb::new(plan.size(), first, end), heard, rate, factors })
     }
 
-    /// Number of samples of a recording.
+    /// Number of samples that each recording must have.
     pub fn heard(&self) -> usize {
         self.heard
     }
 
-    /// Number of samples of a whole response, which is periodic: what lies before time 0 is at its end.
+    /// Number of samples of a whole response, which is periodic: samples before time 0 are at its end.
     pub fn size(&self) -> usize {
         self.plan.size()
     }
@@ -138,7 +138,8 @@ impl Deconvolver {
         Workspace(self.plan.work())
     }
 
-    /// Deconvolves one recording into the first samples of its response, as many as `response` has. Does not allocate.
+    /// Deconvolves one recording and fills `response` with the first samples of its response. Does not
+    /// allocate.
     ///
     /// # Errors
     /// [`DspError::Size`] if `heard` has not the planned length, `response` is longer than [`Deconvolver::size`], or
@@ -162,8 +163,8 @@ impl Deconvolver {
         Ok(())
     }
 
-    /// Deconvolves many recordings, one after another in `heard`, into `samples` samples of each response, one after
-    /// another in `responses`; on all threads of the current pool.
+    /// Deconvolves many recordings, stored one after another in `heard`, on all threads of the current pool;
+    /// `samples` samples of each response are written one after another to `responses`.
     ///
     /// # Errors
     /// [`DspError::Size`] if the slices are not of the same number of whole recordings and responses, or `samples` is 0

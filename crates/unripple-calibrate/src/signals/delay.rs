@@ -21,9 +21,10 @@ use unripple_dsp::DspError;
 pub struct Delay {
     /// Delay of the found signal relative to the model, in samples.
     pub samples: f64,
-    /// Correlation of the two in the band at that delay, from 0 to 1: 1 if they differ by a delay and a factor only.
+    /// Correlation of the two signals in the band at the delay `samples`, from 0 to 1: 1 if they differ by a
+    /// delay and a factor only.
     pub correlation: f64,
-    /// Whether the two have opposite signs.
+    /// Whether the two signals have opposite signs.
     pub inverted: bool,
 }
 
@@ -138,8 +139,9 @@ impl Lines {
     }
 }
 
-/// Delays a signal by any number of samples, fractional or negative too, by a phase ramp in its spectrum: exact for a
-/// signal that is band limited and zero near its ends. What is moved beyond an end is lost.
+/// Delays a signal by any number of samples, fractional or negative too, by a phase ramp in its spectrum:
+/// exact for a signal that is band limited and zero near its ends. Samples that are moved beyond an end are
+/// lost.
 ///
 /// ```
 /// let moved = unripple_calibrate::signals::shift(&[0.0, 1.0, 2.0, 0.0], 1.0);

@@ -11,22 +11,23 @@ use unripple_dsp::DspError;
 pub struct Split {
     /// Sample at which the linear response begins, lead included: 0, or the actuator's start in a schedule.
     pub start: usize,
-    /// Samples before time 0 that every response begins with.
+    /// Number of samples before time 0 with which every response begins.
     pub lead: usize,
-    /// Length of every response, in samples; those at harmonics are shorter where the next lower order follows sooner.
+    /// Length of every response, in samples; those of harmonics are shorter if the next lower order follows
+    /// sooner.
     pub window: usize,
-    /// Highest order of harmonics.
+    /// Highest order of harmonics that is separated.
     pub highest_order: usize,
-    /// The band that the deconvolution was limited to; the sweep's own if `None`.
+    /// The band to which the deconvolution was limited; if `None`, that of the sweep.
     pub band: Option<Band>,
 }
 
-/// The response at one harmonic.
+/// The response of a channel at one harmonic of the drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Harmonic {
     /// Order of the harmonic, from 2.
     pub order: usize,
-    /// Response at the harmonic, aligned with the linear one.
+    /// Response at the harmonic, aligned with the linear response.
     pub response: Vec<f64>,
     /// Amplitude relative to the linear response, rms over the drive's frequencies whose harmonic lies in the band too.
     pub ratio: f64,
@@ -41,9 +42,10 @@ impl Harmonic {
 
 /// The linear response of a channel and those at harmonics of the drive, separated by their times.
 ///
-/// The m-th harmonic of an exponential sweep is the sweep itself, earlier by `L ln m` with L the sweep's [growth](Sweep::growth): its
-/// response precedes the linear one by that time. Noise counts as distortion where it is stronger. Where windows are longer than the
-/// time between orders, the tail of a higher order counts to the next lower one; a slower sweep keeps them apart.
+/// The m-th harmonic of an exponential sweep is the sweep itself, earlier by `L ln m` with L the sweep's
+/// [growth](Sweep::growth): its response precedes the linear one by that time. Noise counts as distortion
+/// where it is stronger. If windows are longer than the time between orders, the tail of a higher order is
+/// counted as part of the next lower one; a slower sweep separates them.
 ///
 /// Source: A. Farina, AES Convention 108, paper 5093 (2000), section 3; A. Novak et al., J. Audio Eng. Soc. 63 (2015),
 /// eq. 26-33.
@@ -64,9 +66,9 @@ impl Harmonic {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Harmonics {
-    /// The linear response.
+    /// The linear response, from `lead` samples before time 0 on.
     pub linear: Vec<f64>,
-    /// The harmonics, from the second.
+    /// The harmonics in ascending order, from the second on.
     pub orders: Vec<Harmonic>,
 }
 
@@ -109,7 +111,7 @@ impl Harmonics {
         Ok(Self { linear, orders })
     }
 
-    /// The response of an order, 1 for the linear one, aligned with the linear one.
+    /// The response of an order (1 for the linear response), aligned with the linear response.
     fn response(deconvolved: &[f64], sweep: &Sweep, split: &Split, order: usize) -> Vec<f64> {
         let lead = sweep.lead(order) * sweep.rate;
         let gap = if order > 1 { lead - sweep.lead(order - 1) * sweep.rate } else { f64::INFINITY };
@@ -131,10 +133,11 @@ impl Harmonics {
         response
     }
 
-    /// Amplitude of each harmonic of the drive, from the second, relative to the drive, if the drive alone is nonlinear: its
-    /// harmonics then have the linear response at their own frequencies. `None` for a harmonic that does not exceed noise and earlier
-    /// ringing. `noise` is a stretch of any length of the deconvolved recording without any response; `decay` is the amplitude decay
-    /// time of the ringing, in s.
+    /// Amplitude of each harmonic of the drive, from the second, relative to the drive, if the drive alone
+    /// is nonlinear: its harmonics then have the linear response at their own frequencies. `None` for a
+    /// harmonic that does not exceed noise and earlier ringing. `noise` is an interval, of any length, of
+    /// the deconvolved recording without any response; `decay` is the amplitude decay time of the ringing,
+    /// in s.
     pub fn of_drive(
         &self,
         deconvolved: &[f64],
@@ -175,7 +178,8 @@ impl Harmonics {
         self.orders.iter().map(one).collect()
     }
 
-    /// Total harmonic distortion: all harmonics' power over the linear one's, as a ratio of amplitudes.
+    /// Total harmonic distortion, as a ratio of amplitudes: the root of all harmonics' power over that of
+    /// the linear response.
     pub fn distortion(&self) -> f64 {
         self.orders.iter().map(|harmonic| harmonic.ratio.powi(2)).sum::<f64>().sqrt()
     }
@@ -186,14 +190,14 @@ impl Harmonics {
     }
 }
 
-/// Smallest power of a harmonic, relative to its background, with which it counts as present.
+/// Smallest power of a harmonic, relative to its background, at which it counts as present.
 const TOLD: f64 = 2.0;
 
 /// Number of standard deviations by which a harmonic has to stand out of its background.
 const SURE: f64 = 6.0;
 
-/// Share of the time from one order to the next that is used. The rest holds the beginning of the next order, which the band brings
-/// forward.
+/// Share of the time from one order to the next that is used. The remainder holds the beginning of the next
+/// order, which the band limit makes earlier.
 const SHARE: f64 = 0.75;
 
 /// Fades a signal in and out over the lead, so that its cut ends do not spread in frequency.
@@ -202,7 +206,8 @@ fn gated(signal: &mut [f64], lead: usize) {
     Gate { begin: 0.0, rise: edge / 2.0, end: length, fall: edge }.apply(signal);
 }
 
-/// Ratio of frequencies over which the fades of a sweep reach, at either end. There amplitudes are not those of the drive.
+/// Ratio of frequencies over which a sweep fades in and out at its ends, where amplitudes are smaller than
+/// elsewhere.
 const EDGE: f64 = 1.1;
 
 /// Sum of squares of the spectrum between two frequencies, of transforms all of one size.

@@ -3,9 +3,9 @@
 use super::transform::Transform;
 use std::f64::consts::PI;
 
-/// Mean square of a signal in each of some bands, from a lower to an upper frequency (Hz), by a Hann window whose loss of power
-/// is compensated; `rate` is in samples per second. A band narrower than a spectral line gets that share of the nearest line's
-/// power that it covers of the line's width.
+/// Mean square of a signal in each of some bands, from a lower to an upper frequency (Hz), by a Hann window
+/// whose loss of power is compensated; `rate` is in samples per second. A band narrower than a spectral line
+/// gets a share of the nearest line's power in proportion to the part of the line's width that it covers.
 ///
 /// ```
 /// let tone: Vec<f64> = (0..4800).map(|i| (f64::from(i) * 0.1309).sin()).collect();
@@ -33,7 +33,7 @@ pub fn band_powers(signal: &[f64], rate: f64, bands: &[[f64; 2]]) -> Vec<f64> {
             let last = work.lines.len() - 1;
             let [first, end] =
                 [low - 0.5, high + 0.5].map(|x| x.max(0.0).round() as usize).map(|x| x.min(last));
-            // A line stands for the frequencies around it: the share of them within the band.
+            // A line represents the frequencies around it: the share of them within the band counts.
             let share = |k: usize| ((k as f64 + 0.5).min(high) - (k as f64 - 0.5).max(low)).clamp(0.0, 1.0);
             (first..=end).map(|k| share(k) * own(k)).sum()
         })

@@ -33,8 +33,8 @@ pub struct Quality {
 }
 
 impl Quality {
-    /// The quality of a response, from itself and from samples of noise, any number of them, that went through the same
-    /// deconvolution: before the response's time 0, or where it has died away.
+    /// The quality of a response, from the response and from any number of samples of noise after the same
+    /// deconvolution: before the response's time 0, or after it has decayed.
     ///
     /// # Errors
     /// [`DspError::Range`] if `rate` is not positive.
@@ -60,8 +60,8 @@ pub fn snr_db(signal: &[f64], noise: &[f64]) -> f64 {
     if all > noise { 10.0 * (all / noise - 1.0).log10() } else { f64::NEG_INFINITY }
 }
 
-/// Number of clipped samples of a channel: those in runs of four or more that stay within a millionth of the largest magnitude, or
-/// at `full_scale` or beyond.
+/// Number of clipped samples of a channel: samples in runs of four or more within a millionth of the largest
+/// magnitude, and samples at `full_scale` or beyond.
 ///
 /// ```
 /// let clipped: Vec<f64> = (0..480).map(|i| (f64::from(i) * 0.05).sin().clamp(-0.9, 0.9)).collect();

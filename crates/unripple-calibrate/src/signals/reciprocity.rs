@@ -1,10 +1,10 @@
-//! Reciprocity error between actuators that also sense.
+//! Reciprocity error of responses between actuators that are also sensors.
 
 use super::average::correlation;
 use super::same;
 use unripple_dsp::DspError;
 
-/// Deviation of responses between actuators that also sense from reciprocity, h_ab = h_ba.
+/// Deviation from reciprocity, h_ab = h_ba, of responses between actuators that are also sensors.
 ///
 /// ```
 /// use unripple_calibrate::signals::Reciprocity;
@@ -18,20 +18,20 @@ use unripple_dsp::DspError;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reciprocity {
-    /// Rms of h_ab − h_ba, relative to the rms of both, over all pairs; 0 if all are silent.
+    /// Rms of h_ab − h_ba over all pairs, relative to the rms of both responses; 0 if all are silent.
     pub error: f64,
     /// The pair with the largest error; `None` for fewer than two actuators.
     pub worst: Option<Pair>,
-    /// All pairs, a < b.
+    /// All pairs of two actuators a < b, with their errors.
     pub pairs: Vec<Pair>,
 }
 
-/// Reciprocity between two actuators.
+/// Reciprocity error between two actuators a and b.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
     /// Indices of the two actuators, the lower first.
     pub pair: [usize; 2],
-    /// Rms of h_ab − h_ba, relative to the rms of both.
+    /// Rms of h_ab − h_ba, relative to the rms of both responses.
     pub error: f64,
     /// Correlation of h_ab and h_ba: near 1 with a large error if the gain of one sensor is wrong, near −1 if one is
     /// reversed.

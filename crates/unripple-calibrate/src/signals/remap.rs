@@ -1,4 +1,4 @@
-//! Signals with their frequencies moved, each by its own amount.
+//! Signals whose frequency components are moved to other frequencies, each by a different amount.
 
 use super::transform::{Transform, turns};
 use realfft::num_complex::Complex;
@@ -17,7 +17,7 @@ const BETA: f64 = 12.0;
 /// Steps of the tabulated kernel between two lines: interpolated linearly, it is accurate to 1e-7.
 const FINE: usize = 1024;
 
-/// Weights of the kernel's lines: the same line at all of its places is side by side.
+/// Weights of the kernel's lines, for one place between two lines.
 type Weights = [f64; 2 * HALF];
 
 /// The weights of the lines around a place `i / FINE` of the way from one line to the next, of which the former is number `HALF - 1`.
@@ -35,11 +35,13 @@ fn weights(part: f64) -> Weights {
     std::array::from_fn(|k| kernel[0][k] * (1.0 - part) + kernel[1][k] * part)
 }
 
-/// Where the lines of a moved signal come from.
+/// For each spectral line of a moved signal, the original frequency from which it is interpolated, as
+/// weights and a phase factor.
 #[derive(Clone, Debug)]
 pub struct Moves(Vec<Move>);
 
-/// Where one line comes from: lines of the signal from the `first` on, with the weights of the kernel, turned.
+/// Interpolation of one line: the signal's lines from `first` on, times the kernel's weights and a phase
+/// factor.
 #[derive(Clone, Copy, Debug)]
 struct Move {
     first: i64,
@@ -75,7 +77,8 @@ pub struct Remap {
 }
 
 impl Remap {
-    /// A signal, zero beyond its ends, of `rate` samples per second, whose time 0 is `origin` samples after its first.
+    /// Prepares a signal, zero beyond its ends, of `rate` samples per second, whose time 0 is `origin`
+    /// samples after its first.
     pub fn new(signal: &[f64], rate: f64, origin: f64) -> Self {
         let plan = Transform::smooth(2 * signal.len().max(HALF));
         let mut work = plan.work();
@@ -86,26 +89,27 @@ impl Remap {
         Self { plan, samples: signal.len(), rate, lines, centre, origin }
     }
 
-    /// Frequency of a line, in Hz.
+    /// Frequency of a spectral line, in Hz.
     pub fn hz(&self, line: usize) -> f64 {
         self.plan.hz(line, self.rate)
     }
 
-    /// Lines that lie in a band (Hz): the first, and the first beyond.
+    /// Range of spectral lines that lie in a band (Hz): the index of the first line in it, and of the first
+    /// line beyond it.
     pub fn within(&self, band: [f64; 2]) -> [usize; 2] {
         let step = self.rate / self.plan.size() as f64;
         let at = |hz: f64| ((hz / step).max(0.0).ceil() as usize).min(self.lines.len());
         [at(band[0]), (at(band[1]) + 1).min(self.lines.len())]
     }
 
-    /// Spectrum of the moved signal at the lines of a band (Hz). `from` returns, for a frequency (Hz) after moving, the
-    /// frequency before (Hz), and the derivative of the latter by the former.
+    /// Spectrum of the moved signal at the lines of a band (Hz). `from` returns, for a frequency (Hz) after
+    /// the move, the original frequency (Hz), and the derivative of the latter by the former.
     pub fn lines(&self, band: [f64; 2], from: impl Fn(f64) -> [f64; 2]) -> Vec<Complex<f64>> {
         self.lines_by(&self.moves(band, from))
     }
 
-    /// How the lines of a band (Hz) come from those of the signal, which all signals of the same length and origin share; `from` as in
-    /// [`Remap::lines`].
+    /// Interpolation weights for the moved lines of a band (Hz), for [`Remap::lines_by`]; they are valid for
+    /// all signals of this length and origin. `from` as in [`Remap::lines`].
     pub fn moves(&self, band: [f64; 2], from: impl Fn(f64) -> [f64; 2]) -> Moves {
         let [first, end] = self.within(band);
         let step = self.rate / self.plan.size() as f64;
@@ -125,14 +129,16 @@ impl Remap {
         Moves((first..end).map(move_of).collect())
     }
 
-    /// Spectrum of the moved signal at the lines of the moves, which were made for a signal of the same length and origin.
+    /// Spectrum of the moved signal at the lines of `moves`, which were computed for a signal of the same
+    /// length and origin.
     pub fn lines_by(&self, moves: &Moves) -> Vec<Complex<f64>> {
         moves.0.iter().map(|of| self.between(of) * of.turn).collect()
     }
 
     /// The spectrum of the centred signal between its lines.
     fn between(&self, of: &Move) -> Complex<f64> {
-        // Nearly everywhere all lines of the kernel are there, side by side: this is the innermost loop of every comparison of takes.
+        // Nearly everywhere all lines of the kernel exist, side by side: this is the innermost loop of every
+        // comparison of takes.
         let inside = usize::try_from(of.first).ok().and_then(|first| self.lines.get(first..first + 2 * HALF));
         let mut sum = Complex::default();
         match inside {
@@ -156,7 +162,7 @@ impl Remap {
         }
     }
 
-    /// The moved signal, as long as it was, with nothing outside `band` (Hz, as it is after moving).
+    /// The moved signal, of the original length, limited to `band` (Hz, after the move).
     pub fn moved(&self, band: [f64; 2], from: impl Fn(f64) -> [f64; 2]) -> Vec<f64> {
         let mut work = self.plan.work();
         let first = self.within(band)[0];

@@ -8,7 +8,7 @@ use unripple_dsp::DspError;
 /// Start times of the actuators' stimuli, such that one deconvolution of the recording separates the responses of all
 /// actuators.
 ///
-/// Actuators play the same stimulus, each later than the one before. A response takes up `window` samples of the
+/// Actuators play equal stimuli, each later than the one before. A response occupies `window` samples of the
 /// deconvolution, which no other response overlaps.
 ///
 /// ```
@@ -29,7 +29,8 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// One actuator after another, each when the response to the one before has ended.
+    /// A schedule of one actuator after another: each stimulus starts when the response to the one before
+    /// has ended.
     ///
     /// # Errors
     /// [`DspError::Size`] without actuators or with a window of 0; [`DspError::Range`] for a periodic stimulus.
@@ -42,9 +43,9 @@ impl Schedule {
         Self::made(stimulus, (0..actuators).map(|a| a * step).collect(), window)
     }
 
-    /// Overlapping and interleaved exponential sweeps: no actuator's response meets another's, nor any harmonic of
-    /// orders 2 to `highest_order` of another, each as long as `window`; harmonics may meet one another. With
-    /// `highest_order` 1 the surface is taken to be linear.
+    /// A schedule of overlapping and interleaved exponential sweeps: no actuator's response overlaps
+    /// another's, or a harmonic of another's of orders 2 to `highest_order`, each as long as `window`;
+    /// harmonics may overlap one another. With `highest_order` 1 the surface is assumed to be linear.
     ///
     /// Source: P. Majdak, P. Balazs, B. Laback, "Multiple exponential sweep method", J. Audio Eng. Soc. 55 (2007). Where
     /// they fix the pattern (groups interleaved, groups overlapped), each sweep here begins as early as it can, or all
@@ -68,7 +69,8 @@ impl Schedule {
                 highest_order as f64,
             )));
         }
-        // A start that makes an earlier response meet a harmonic lies this far behind it: between the two, exclusively.
+        // Distances from an earlier start, between the two numbers exclusively, at which a response and a
+        // harmonic would overlap.
         let forbidden: Vec<[usize; 2]> = (2..=highest_order)
             .map(|order| {
                 let lead = sweep.lead(order) * sweep.rate;
@@ -80,8 +82,9 @@ impl Schedule {
         Self::made(stimulus, starts, window)
     }
 
-    /// All actuators at once: each plays the same periodic stimulus, shifted cyclically by an equal share of the period,
-    /// which is the window. One period is recorded, once the surface has settled.
+    /// A schedule of all actuators at the same time: each plays one periodic stimulus, shifted cyclically by
+    /// an equal share of the period, which is the window. One period is recorded after the surface has
+    /// reached the steady state.
     ///
     /// # Errors
     /// [`DspError::Size`] without actuators, or for a period shorter than their number; [`DspError::Range`] for a
@@ -104,23 +107,24 @@ impl Schedule {
         Ok(Self { stimulus, starts, window })
     }
 
-    /// The stimulus that each actuator plays, and that the [`super::Deconvolver`] of this schedule is made for.
+    /// The stimulus that each actuator plays, from which the [`super::Deconvolver`] of this schedule is
+    /// made.
     pub fn stimulus(&self) -> &Stimulus {
         &self.stimulus
     }
 
-    /// First sample of each actuator's stimulus.
+    /// Sample at which each actuator's stimulus starts.
     pub fn starts(&self) -> &[usize] {
         &self.starts
     }
 
-    /// Number of samples of one response.
+    /// Number of samples of the deconvolution that belong to one response.
     pub fn window(&self) -> usize {
         self.window
     }
 
-    /// Number of samples to record: until the last response has ended, or one period. At least one window of a periodic
-    /// stimulus must have been played before.
+    /// Number of samples to record: until the last response has ended, or one period of a periodic stimulus.
+    /// The latter must have been played for at least one window before.
     pub fn samples(&self) -> usize {
         if self.stimulus.periodic {
             return self.stimulus.samples.len();
@@ -128,7 +132,7 @@ impl Schedule {
         self.starts.last().map_or(0, |last| last + self.stimulus.samples.len() + self.window)
     }
 
-    /// Writes the signal of an actuator; a periodic stimulus fills all of `drive`.
+    /// Writes the signal that an actuator plays to `drive`; a periodic stimulus fills it entirely.
     ///
     /// # Errors
     /// [`DspError::Size`] if there is no such actuator.
@@ -144,8 +148,9 @@ impl Schedule {
         Ok(())
     }
 
-    /// Cuts an actuator's response, as many samples as `response` has and [`Schedule::window`] at most, out of the
-    /// whole deconvolution. With a lead, both begin that much before time 0.
+    /// Copies an actuator's response from the whole deconvolution to `response`, of at most
+    /// [`Schedule::window`] samples. If the deconvolution has a lead, the response begins that many samples
+    /// before time 0.
     ///
     /// # Errors
     /// [`DspError::Size`] if there is no such actuator, or `response` is longer than the window.
@@ -169,7 +174,7 @@ fn earliest(actuators: usize, window: usize, forbidden: &[[usize; 2]]) -> Vec<us
     let mut starts: Vec<usize> = Vec::with_capacity(actuators);
     for _ in 0..actuators {
         let mut start = starts.last().map_or(0, |last| last + window);
-        // Every step clears one forbidden stretch for good, so this ends.
+        // Every step passes one forbidden interval for good, so that the loop ends.
         while let Some(end) = starts.iter().find_map(|before| {
             let behind = start - before;
             forbidden

@@ -24,8 +24,8 @@ pub struct Stimulus {
 }
 
 impl Stimulus {
-    /// A stimulus that begins and ends, in the unit of the drive, useful at all frequencies until
-    /// [`Stimulus::in_band`] says otherwise.
+    /// A stimulus of finite length, in the unit of the drive. Its band contains all frequencies;
+    /// [`Stimulus::in_band`] restricts it.
     ///
     /// # Errors
     /// [`DspError::Range`] if `rate` is not positive, or a sample is not finite; [`DspError::Size`] without samples.
@@ -40,13 +40,13 @@ impl Stimulus {
         Ok(Self { samples, rate, band: Band::ALL, periodic: false })
     }
 
-    /// This stimulus as one period of a periodic signal, so that the recording is periodic too once the surface has
-    /// settled.
+    /// This stimulus as one period of a periodic signal, so that the recording is periodic too once the
+    /// surface is in the steady state.
     pub fn repeated(self) -> Self {
         Self { periodic: true, ..self }
     }
 
-    /// This stimulus with the band in which it is useful.
+    /// This stimulus with `band` as the band in which it has enough power for measuring.
     ///
     /// # Errors
     /// [`DspError::Range`] if the band's edges do not ascend.
@@ -55,7 +55,7 @@ impl Stimulus {
         Ok(Self { band, ..self })
     }
 
-    /// Samples of the stimulus, one period of them if it is periodic.
+    /// Samples of the stimulus; if it is periodic, those of one period.
     pub fn samples(&self) -> &[f64] {
         &self.samples
     }
@@ -65,23 +65,24 @@ impl Stimulus {
         self.rate
     }
 
-    /// The band in which the stimulus is useful.
+    /// The band in which the stimulus has enough power for measuring.
     pub fn band(&self) -> Band {
         self.band
     }
 
-    /// Whether its samples are one period of a periodic signal.
+    /// Whether the stimulus is periodic, with its samples as one period.
     pub fn is_periodic(&self) -> bool {
         self.periodic
     }
 
-    /// Sum of squares of the samples over the rate, in the drive's unit squared times seconds.
+    /// Energy of the stimulus: the sum of squares of the samples divided by the rate, in the drive's unit
+    /// squared times seconds.
     pub fn energy(&self) -> f64 {
         self.samples.iter().map(|x| x * x).sum::<f64>() / self.rate
     }
 
-    /// Lowest and highest frequency in Hz around the strongest one between which the spectrum nowhere falls `db`
-    /// decibels below its maximum: for a tap, the band in which it has power.
+    /// Lowest and highest frequency (Hz) of the range around the spectrum's maximum in which the spectrum is
+    /// nowhere more than `db` decibels below it: for a tap, the band in which it has power.
     pub fn usable_band(&self, db: f64) -> [f64; 2] {
         let plan = Transform::smooth(self.samples.len().max(1024));
         let mut work = plan.work();

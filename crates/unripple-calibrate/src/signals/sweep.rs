@@ -1,12 +1,12 @@
-//! The exponential sine sweep (Farina 2000), synchronized if wanted (Novak et al. 2015).
+//! The exponential sine sweep (Farina 2000), optionally synchronized (Novak et al. 2015).
 
 use super::{Band, Stimulus, positive};
 use std::f64::consts::{PI, TAU};
 use unripple_core::OutOfRange;
 use unripple_dsp::DspError;
 
-/// An exponential sine sweep: its frequency rises by the same factor in the same time, so that the m-th harmonic of
-/// the sweep is the sweep itself, earlier by a time that depends on m alone ([`Sweep::lead`]).
+/// An exponential sine sweep: its frequency rises by equal factors in equal times, so that the m-th harmonic
+/// of the sweep is the sweep itself, earlier by a time that depends on m alone ([`Sweep::lead`]).
 ///
 /// Source: A. Farina, AES Convention 108, paper 5093 (2000); the synchronized form: A. Novak, P. Lotton, L. Simon,
 /// "Synchronized swept-sine", J. Audio Eng. Soc. 63 (2015), eq. 47-49.
@@ -27,7 +27,7 @@ pub struct Sweep {
     pub from: f64,
     /// Last frequency of the sweep, in Hz, below half the rate.
     pub to: f64,
-    /// Duration of the sweep, in s. A synchronized sweep takes the nearest duration that it can have: see
+    /// Duration of the sweep, in s. A synchronized sweep has the nearest possible duration: see
     /// [`Sweep::sounding`].
     pub seconds: f64,
     /// Amplitude of the sweep, in the unit of the drive.
@@ -38,8 +38,8 @@ pub struct Sweep {
     pub fade_out: f64,
     /// Duration of the silence after the sweep, in s.
     pub silence: f64,
-    /// Whether the phase is such that harmonics are the sweep itself exactly, phase included (Novak), or begins with 0
-    /// whatever the length (Farina).
+    /// Whether the phase is chosen so that harmonics equal the sweep itself, phase included (Novak);
+    /// otherwise it begins with 0 (Farina).
     pub synchronized: bool,
 }
 
@@ -61,7 +61,7 @@ impl Default for Sweep {
 }
 
 impl Sweep {
-    /// Seconds in which the frequency rises by a factor e: L of Novak's eq. 47 and 49.
+    /// Time, in s, in which the frequency rises by a factor e: L of Novak's eq. 47 and 49.
     pub fn growth(&self) -> f64 {
         let growth = self.seconds / (self.to / self.from).ln();
         if self.synchronized { (self.from * growth).round().max(1.0) / self.from } else { growth }
@@ -73,7 +73,8 @@ impl Sweep {
         self.growth() * (self.to / self.from).ln()
     }
 
-    /// Time, in s, by which the response at a harmonic precedes the linear response, which has the order 1.
+    /// Time, in s, by which the response of the harmonic of `order` precedes the linear response; 0 for
+    /// order 1, the linear response.
     pub fn lead(&self, order: usize) -> f64 {
         self.growth() * (order.max(1) as f64).ln()
     }
@@ -126,7 +127,7 @@ impl Sweep {
     }
 }
 
-/// Longest sweep and longest silence, in seconds: longer ones are taken for mistakes of unit, and would take
+/// Longest sweep and longest silence, in seconds: longer ones are probably mistakes of unit, and would need
 /// gigabytes.
 const MOST_SECONDS: f64 = 600.0;
 

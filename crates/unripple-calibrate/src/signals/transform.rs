@@ -1,4 +1,4 @@
-//! Real fast Fourier transforms of one size, with their scratch.
+//! Real fast Fourier transforms of one size, with their scratch buffers.
 
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -6,12 +6,12 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use unripple_dsp::smooth_size;
 
-/// Number of plans that a thread keeps: a measurement uses the same few sizes again and again, and planning one takes as long as
-/// three transforms of it. Each plan holds as much memory as a signal.
+/// Number of plans that a thread caches: a measurement uses the same few sizes again and again, and planning
+/// one takes as long as three transforms of it. Each plan holds as much memory as a signal.
 const KEPT: usize = 8;
 
 thread_local! {
-    /// The plans that were asked for last, the latest at the end.
+    /// The plans used last, the latest at the end.
     static PLANS: RefCell<Vec<Transform>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -23,9 +23,9 @@ pub(super) struct Transform {
     inverse: Arc<dyn ComplexToReal<f64>>,
 }
 
-/// Workspace of one transform.
+/// Buffers of one transform: signal, spectrum, scratch.
 pub(super) struct Work {
-    /// The signal in time.
+    /// Samples of the signal.
     pub signal: Vec<f64>,
     /// Spectrum of the signal, from 0 to half the rate.
     pub lines: Vec<Complex<f64>>,
@@ -40,7 +40,7 @@ impl std::fmt::Debug for Transform {
 }
 
 impl Transform {
-    /// A transform of exactly `size` samples, or of one if that is 0.
+    /// A transform of exactly `size` samples, or of one sample if `size` is 0.
     pub fn exact(size: usize) -> Self {
         let size = size.max(1);
         PLANS.with_borrow_mut(|plans| {
@@ -58,7 +58,7 @@ impl Transform {
         })
     }
 
-    /// A transform of at least `least` samples, of a size for which it is quick.
+    /// A transform of at least `least` samples, of a size for which the transform is fast.
     pub fn smooth(least: usize) -> Self {
         Self::exact(smooth_size(least))
     }
@@ -68,7 +68,7 @@ impl Transform {
         self.size
     }
 
-    /// Frequency of a line, in Hz.
+    /// Frequency of a spectral line, in Hz.
     pub fn hz(&self, line: usize, rate: f64) -> f64 {
         line as f64 * rate / self.size as f64
     }
@@ -116,13 +116,14 @@ impl Transform {
         debug_assert!(done.is_ok(), "sizes come from the plan itself");
     }
 
-    /// Number of lines of the two-sided spectrum that a line stands for: 1 or 2.
+    /// Number of lines of the two-sided spectrum that a line of the one-sided spectrum represents: 1 or 2.
     pub fn copies(&self, line: usize) -> f64 {
         if line == 0 || 2 * line == self.size { 1.0 } else { 2.0 }
     }
 }
 
-/// `e^{j step k}` for `k` = `first`, `first` + 1, …: the phase factors of spectral lines when a signal is moved in time.
+/// `e^{j step k}` for `k` = `first`, `first` + 1, …: the phase factors of spectral lines for a shift of the
+/// signal in time.
 ///
 /// Each is the one before times `e^{j step}`, which takes a tenth of the time of a sine and a cosine; every [`AFRESH`] lines one is
 /// computed anew, so that rounding adds up to 1e-14 at most, besides that of the angle.

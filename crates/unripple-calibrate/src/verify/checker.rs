@@ -1,9 +1,10 @@
-//! A model's responses at any place, compared with measured ones frequency by frequency.
+//! Comparison of a model's responses at any place with measured ones, frequency by frequency.
 
 use unripple_core::{ModalResponses, Point, Pole};
 use unripple_linalg::{Mat, c64, product};
 
-/// Responses of a model between its actuators and any place, ready to be compared with those measured there.
+/// Responses of a model between its actuators and any place, prepared for comparison with measured
+/// responses.
 ///
 /// With w the actuators' weights, φ the shapes and μ the modes' mobilities, the model at x is Y_a(s) = Σ_m φ_m(x) w_am μ_m(s): linear
 /// in φ(x). So is its inner product with a measured response, and its own power is a quadratic form of φ(x). Comparing a response
@@ -21,7 +22,8 @@ pub(super) struct Checker<'a> {
 /// Agreement of a measured response with the model's at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Match {
-    /// Correlation of the response with the model's, from -1 to 1: 1 for responses that differ by a gain alone.
+    /// Correlation of the measured response with the model's, from -1 to 1: 1 for responses that differ by a
+    /// gain only.
     pub likeness: f64,
     /// Gain of the measured response, relative to the model's.
     pub gain: f64,
@@ -42,7 +44,7 @@ pub(super) struct Projected {
 }
 
 impl<'a> Checker<'a> {
-    /// Prepares a model for complex frequencies (1/s) that have one real part.
+    /// Prepares a model for comparison at complex frequencies (1/s) that all have the same real part.
     pub fn new(model: &'a ModalResponses, frequencies: &'a [c64]) -> Self {
         let mobilities = mobilities(&model.poles, frequencies);
         let modes = model.poles.len();
@@ -81,7 +83,8 @@ impl<'a> Checker<'a> {
         Projected { crossed, power: spectra.iter().flatten().map(|y| y.norm_sqr()).sum() }
     }
 
-    /// Products with the model's modes if the measured responses are late by each of `delays` (s): modes x delays.
+    /// Inner products of the measured responses with the model's modes, for each assumed delay of the
+    /// responses in `delays` (s): modes x delays.
     pub fn products(&self, heard: &Projected, delays: &[f64]) -> Mat<f64> {
         let turned = Mat::from_fn(self.frequencies.len(), delays.len(), |n, d| {
             c64::new(0.0, self.frequencies[n].im * delays[d]).exp()
@@ -90,23 +93,23 @@ impl<'a> Checker<'a> {
         Mat::from_fn(all.nrows(), all.ncols(), |m, d| all[(m, d)].re)
     }
 
-    /// Power of the model at each of some places, from their shapes (places x modes).
+    /// Power of the model's responses at some places, from the mode shapes there (places x modes).
     pub fn powers(&self, shapes: &Mat<f64>) -> Vec<f64> {
         let all = product(shapes.as_ref(), self.gram.as_ref());
         (0..shapes.nrows()).map(|p| (0..shapes.ncols()).map(|m| all[(p, m)] * shapes[(p, m)]).sum()).collect()
     }
 
-    /// The shapes at some places, places x modes.
+    /// The model's mode shapes at some places, places x modes.
     pub fn shapes(&self, places: &[Point]) -> Mat<f64> {
         self.model.shapes.at_all(places)
     }
 
-    /// Agreement with the model at one place and one delay (s).
+    /// Agreement of measured responses with the model at one place, for one assumed delay (s).
     pub fn at(&self, heard: &Projected, place: Point, delay: f64) -> Match {
         self.late(heard, place, &[delay]).first().copied().unwrap_or(Match { likeness: 0.0, gain: 0.0 })
     }
 
-    /// Agreement with the model at one place and each of several delays (s).
+    /// Agreement of measured responses with the model at one place, for each of several assumed delays (s).
     pub fn late(&self, heard: &Projected, place: Point, delays: &[f64]) -> Vec<Match> {
         let shapes = self.shapes(&[place]);
         let power = self.powers(&shapes)[0];
@@ -115,7 +118,8 @@ impl<'a> Checker<'a> {
         delays.iter().enumerate().map(one).collect()
     }
 
-    /// Agreement from a product, as of [`Checker::products`], and the model's power.
+    /// Agreement with the model at a place, from an inner `product` of the measured and the modelled
+    /// responses there and the model's `power`; `delay` (s) is that assumed for the product.
     pub fn matched(&self, product: f64, power: f64, heard: &Projected, delay: f64) -> Match {
         let alpha = self.frequencies.first().map_or(0.0, |s| s.re);
         let both = (power * heard.power).sqrt();

@@ -3,15 +3,15 @@
 use super::verdict::{Doubted, VerifyOptions};
 use unripple_core::SampledResponses;
 
-/// Distance, in shortest wavelengths, beyond which two places have different responses.
+/// Distance, in shortest wavelengths, beyond which the responses of two places must differ.
 const APART: f64 = 0.25;
 
-/// Correlation from which two responses count as one recording: two true repeats, each with noise 30 dB below the
-/// signal, correlate as well as that.
+/// Smallest correlation at which two responses count as one recording: two true repeats, each with noise 30
+/// dB below the signal, correlate that well.
 const ONE: f64 = 0.999;
 
-/// Number of actuators that are compared first, and (`SAMPLES`) of samples of each response: the other actuators only
-/// where these agree.
+/// Number of actuators whose responses are compared first, and (`SAMPLES`) number of samples of each: the
+/// other actuators are compared only if these agree.
 const ACTUATORS: usize = 4;
 const SAMPLES: usize = 1024;
 

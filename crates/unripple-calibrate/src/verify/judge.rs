@@ -13,14 +13,15 @@ use unripple_dsp::median;
 const UNLIKE: f64 = 0.4;
 const TIMES: f64 = 2.5;
 
-/// Smallest and largest delay that are searched, in s: of a probe's electronics, and of a recording that lost samples.
+/// Smallest and largest delay that are searched, in s: delays of a probe's electronics, and of recordings
+/// that lost samples.
 const DELAYS: [f64; 2] = [-2e-3, 12e-3];
 
 /// Smallest delay of a probe that is corrected, in periods of the band's top: 5.4 degrees of phase there, which costs a
 /// focus 0.5 % of its height at most; half as much would correct what is noise.
 const TURNED: f64 = 0.015;
 
-/// Number of points from which the probe's delay is found: more take longer and change it little.
+/// Largest number of points from which the probe's delay is found: more take longer and change it little.
 const TELLING: usize = 24;
 
 /// Distance, in shortest wavelengths compared, within which a place counts as that of a point or actuator.
@@ -29,13 +30,13 @@ const NEAR: f64 = 0.2;
 /// Result of the verification of one probed point: how well its responses fit the model, and at which place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Judged {
-    /// Agreement with the model at the stated place and the common delay.
+    /// Agreement of the point's responses with the model at the stated place and the common delay.
     pub own: Match,
-    /// The best place near the stated one.
+    /// The place near the stated one, and the delay, at which the responses fit the model best.
     pub nearby: Spot,
-    /// Estimated error of the place `nearby` along each axis, in metres.
+    /// Estimated error of the place in `nearby` along each axis, in metres.
     pub error: f64,
-    /// Finding about the point.
+    /// Whether the responses fit the stated place, another place, or none.
     pub kind: Kind,
 }
 
@@ -44,7 +45,7 @@ pub(super) struct Judged {
 pub(super) enum Kind {
     /// The responses fit the stated place of the point, or one close by.
     Here,
-    /// The responses fit another place of the sheet, which is given together with what is known to be there.
+    /// The responses fit another place of the sheet: that place, and the point or actuator there.
     Elsewhere(Spot, Whose),
     /// The responses fit the stated place, but with a delay that differs from that of the other points by this time, in s.
     Late(f64),
@@ -52,22 +53,22 @@ pub(super) enum Kind {
     Nothing,
 }
 
-/// What is at a place: a probed point, an actuator, or neither.
+/// What is at a place of the sheet: a probed point, an actuator, or neither.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Whose {
     /// Another probed point, by its index.
     Point(usize),
     /// An actuator, by its index.
     Actuator(usize),
-    /// Neither: a place between the points.
+    /// Neither a probed point nor an actuator.
     Nobody,
 }
 
-/// The references that points are compared with: model, places, options.
+/// The references with which points are compared: model, places, options.
 pub(super) struct Bench<'a> {
     /// The fitted model, and the measured spectra at its frequencies.
     pub quick: &'a Quick,
-    /// Places all over the sheet, to search for where a response fits.
+    /// Places all over the sheet, among which the place that fits a response is searched.
     pub sheet: &'a Sheet<'a>,
     /// The surface as its file describes it.
     pub surface: &'a Surface,
@@ -80,7 +81,7 @@ pub(super) struct Bench<'a> {
 }
 
 impl Bench<'_> {
-    /// Largest share that the model leaves unexplained of a good point's responses, as amplitude.
+    /// Largest share of a good point's responses, as amplitude, that the model may leave unexplained.
     pub fn limit(&self) -> f64 {
         UNLIKE.max(TIMES * self.quick.fitted.unexplained()).min(0.8)
     }
@@ -129,7 +130,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Judges one point by a common delay.
+    /// Judges one point, given the delay (s) common to all points.
     pub fn judge(&self, point: usize, heard: &Projected, common: f64) -> Judged {
         let (at, late) = (self.places[point], common - self.removed(point));
         let own = self.sheet.checker.at(heard, at, late);
@@ -151,8 +152,8 @@ impl Bench<'_> {
         judged(Kind::Nothing)
     }
 
-    /// Smallest delay (s) of a probe that is worth correcting: it exceeds the error of the fit, and shifts the phase at
-    /// the top of the band by some degrees.
+    /// Smallest delay (s) of a probe that is corrected: it exceeds the error of the fit, and shifts the
+    /// phase at the top of the band by some degrees.
     pub fn worth(&self, judged: &[Judged]) -> f64 {
         let left = median(judged.iter().map(|j| j.nearby.found.unexplained())).unwrap_or(1.0);
         let turn = std::f64::consts::TAU * self.quick.band[1];

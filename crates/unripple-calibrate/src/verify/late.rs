@@ -1,4 +1,4 @@
-//! The delay of responses between actuators, by a model that is fitted to them.
+//! The delay of responses between actuators, from a model that is fitted to them.
 
 use super::quick::{Part, SPOILT};
 use super::verdict::VerifyOptions;
@@ -8,15 +8,16 @@ use unripple_core::Surface;
 /// Number of modes in the band that is fitted. More take longer; with fewer, a delay by a hundredth of a sample is not seen.
 const MODES: usize = 20;
 
-/// Highest frequency of the modes used, relative to the top of the band: what is left of modes above looks like a delay, a few hundredths
-/// of a sample with 2.5.
+/// Highest frequency of the modes used, relative to the top of the band: the remaining effect of modes above
+/// looks like a delay, a few hundredths of a sample with 2.5.
 const REACH: f64 = 4.0;
 
-/// Delay in s, the same for all, that responses between actuators have relative to a model [fitted](crate::fit) to them in the lowest
-/// modes. `dead` are indices of actuators that are left out. `None` if no model explains the responses well enough.
+/// Common delay, in s, of the responses between actuators relative to a model [fitted](crate::fit) to them
+/// in the lowest modes. `dead` are indices of actuators that are left out. `None` if no model explains the
+/// responses well enough.
 ///
-/// Where damping couples modes, the phases of tones depend on the surface, and a model that was not fitted does not tell them from a
-/// delay.
+/// If damping couples modes, the phases of tones depend on the surface, and a model that was not fitted
+/// cannot separate them from a delay.
 ///
 /// ```
 /// use unripple_calibrate::signals::{Band, shift};

@@ -1,28 +1,30 @@
-//! Gains of the points, compared with each other.
+//! Comparison of the points' gains with each other.
 
 use super::judge::{Judged, Kind};
 use unripple_dsp::median;
 
-/// Difference of two gains, as a logarithm, from which they count as different: 15 %.
+/// Smallest difference of two gains, as a logarithm, at which they count as different: 15 %.
 const ANOTHER: f64 = 0.14;
 
-/// Largest distance from 1, as a logarithm, of a gain relative to the sensors' that is believed where two points disagree. The same 15
-/// %.
+/// Largest distance from 1, as a logarithm, of a gain relative to the sensors' that is accepted if two
+/// points disagree: also 15 %.
 const ONE: f64 = 0.14;
 
-/// Largest share of what the stated place leaves unexplained that another one may leave to count as the probe's. Errors of the model, such
-/// as a stray mass that it does not know, leave 0.65 beside them and more; a probe that was a tenth of a wave off leaves less than half.
+/// Largest ratio of the unexplained share at another place to that at the stated one for the probe to count
+/// as having been at the other. Near errors of the model, such as a stray mass that it does not include, the
+/// ratio is 0.65 or more; for a probe that was a tenth of a wavelength off, it is less than half.
 const CLEARLY: f64 = 0.6;
 
 /// Number of standard errors by which a gain has to differ to be corrected. By chance one point in 370 differs by that.
 const SURE: f64 = 3.0;
 
-/// The gain that most points have.
+/// The gain that most points have, and the gain relative to which others are expressed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Levels {
-    /// The gain of most points, its sign included; `None` where no two points agree.
+    /// The gain of most points, its sign included; `None` if no two points agree.
     pub common: Option<f64>,
-    /// The gain that others are expressed by: the common one, or the median of magnitudes.
+    /// The gain relative to which others are expressed: the common gain, or the median of their magnitudes
+    /// if there is none.
     pub scale: f64,
 }
 
@@ -33,7 +35,7 @@ impl Levels {
             judged.iter().filter(|j| j.kind == Kind::Here).map(|j| j.nearby.found.gain).collect();
         let scale = median(gains.iter().map(|g| g.abs())).unwrap_or(1.0);
         let agree = |g: f64| gains.iter().filter(|other| same(**other, g)).count();
-        // The gain that most share; of two, the one that is the sensors' own.
+        // The gain on which most points agree; of two different gains, the one that equals the sensors'.
         let best = gains.iter().copied().max_by(|a, b| agree(*a).cmp(&agree(*b)));
         let common = match (best, gains.len()) {
             (Some(best), n) if n < 3 || 2 * agree(best) > n => Some(best),
@@ -54,9 +56,10 @@ impl Levels {
         Self { common, scale: common.unwrap_or(scale) }
     }
 
-    /// Whether the place nearby explains the responses clearly better than the stated one, and is not an effect of the gain: beside a rim
-    /// and near nodes, responses at another place differ by little else than a gain. The gain of a probe that was moved is the common one,
-    /// and one that changed together with the place is much the same at both places.
+    /// Whether the point was probably measured at the place nearby: that place explains the responses
+    /// clearly better than the stated one, and this is not an effect of the gain. Beside a rim and near
+    /// nodes, responses at another place differ by little else than a gain. The gain of a moved probe is the
+    /// common one; a gain that differs for another reason is nearly equal at both places.
     pub fn moved(&self, judged: &Judged) -> bool {
         let [own, nearby] = [judged.own, judged.nearby.found];
         let one = |common: f64| same(nearby.gain.abs(), common.abs());
@@ -64,12 +67,14 @@ impl Levels {
             && (same(nearby.gain, own.gain) || self.common.is_none_or(one))
     }
 
-    /// The gain of a point: that at its stated place, or that at the place nearby if it was [moved](Self::moved).
+    /// The gain of a point relative to the sensors, a ratio: at its stated place, or at the place nearby if
+    /// it was [moved](Self::moved).
     pub fn gain(&self, judged: &Judged) -> f64 {
         if self.moved(judged) { judged.nearby.found.gain } else { judged.own.gain }
     }
 
-    /// Factor that would bring a point's responses to the common gain; `None` if they have it.
+    /// Factor that would bring a point's responses to the common gain; `None` if they have that gain
+    /// already, or if there is no common gain.
     pub fn off(&self, judged: &Judged) -> Option<f64> {
         let gain = self.gain(judged);
         self.common.filter(|common| !same(gain, *common)).map(|common| common / gain)

@@ -1,4 +1,4 @@
-//! Probed responses checked against a model that is fitted to what the sensors recorded.
+//! Check of probed responses against a model that is fitted to the sensors' recordings.
 
 mod checker;
 mod copies;
@@ -25,12 +25,13 @@ use std::f64::consts::TAU;
 use unripple_core::{SampledResponses, Surface, require};
 use unripple_physics::Medium;
 
-/// Compares each probed response with a model at its place; gain, sign and delay are free.
+/// Compares each probed response with that of a fitted model at its place; gain, sign and delay may differ.
 ///
-/// The model is [fitted](crate::fit) to the responses between actuators, in the lowest modes, so that a surface file that is wrong
-/// does not make good data look bad. If it leaves too much of them unexplained, there is no comparison, and the result says so. For a
-/// point that does not fit its place the whole sheet is searched, so that exchanged recordings, a probe beside its place and a probe
-/// on an actuator's channel are reported by name.
+/// The model is [fitted](crate::fit) to the responses between actuators, in the lowest modes, so that errors
+/// of the surface file do not make good data look bad. If it leaves too much of them unexplained, there is
+/// no comparison, and the result reports that. If a point's responses do not fit its place, the whole sheet
+/// is searched, so that exchanged recordings, a probe beside its place and a probe on an actuator's channel
+/// are identified.
 ///
 /// `measured` holds the responses between actuators, `probed` the responses of the same actuators at the probed points.
 ///
@@ -76,7 +77,8 @@ pub fn check(
     Ok(judged(quick, surface, probed, options, copies))
 }
 
-/// As [`check`], with a model that was fitted before to the responses between all actuators.
+/// Compares each probed response as [`check`] does, with a model that has already been fitted to the
+/// responses between all actuators.
 ///
 /// # Errors
 /// Those of [`check`].
@@ -93,7 +95,8 @@ pub fn check_by(
     Ok(judged(quick, surface, probed, options, copies))
 }
 
-/// Refuses responses of another number of actuators, or at another rate, than those measured.
+/// Checks that probed responses have the number of actuators of the surface and the sample rate of
+/// `measured`.
 fn together(surface: &Surface, measured: &Measured, probed: &SampledResponses) -> Result<(), CalibrateError> {
     let (expected, found) = (surface.actuators.len(), probed.ports.len());
     if expected != found {
@@ -104,7 +107,7 @@ fn together(surface: &Surface, measured: &Measured, probed: &SampledResponses) -
     Ok(require("sample rate of the probed responses in Hz", rate == measured.rate, "the sensors'", rate)?)
 }
 
-/// The check against a model, or why there is none.
+/// The result of the check against a model, or the reason why there is no model.
 fn judged(
     quick: Result<Quick, String>,
     surface: &Surface,
@@ -118,7 +121,7 @@ fn judged(
     }
 }
 
-/// The check against a model.
+/// Checks all points against a model.
 fn against(
     quick: &Quick,
     surface: &Surface,

@@ -1,5 +1,5 @@
-//! The model that probed points are compared with: fitted to what the sensors recorded, in a band of few modes, where
-//! that is quick.
+//! The model with which probed points are compared: fitted to the sensors' recordings, in a band of few
+//! modes so that the fit is quick.
 
 use super::checker::Checker;
 use super::verdict::VerifyOptions;
@@ -22,7 +22,7 @@ const LINES: usize = 12;
 /// check.
 const NO_MODEL: f64 = 0.35;
 
-/// Unexplained share below which a model is a good one; one sensor in `MOST_ODD` may be left out to get there.
+/// Unexplained share below which a model is good; one sensor in `MOST_ODD` may be left out to reach that.
 pub(super) const SPOILT: f64 = 0.1;
 const MOST_ODD: usize = 3;
 
@@ -33,8 +33,8 @@ const SILENT: f64 = 1e-4;
 /// them.
 const PROFILE: usize = 2;
 
-/// Number of stray masses that are searched where the bare sheet does not explain the sensors' responses. More take longer, and the
-/// lowest modes do not show them.
+/// Number of stray masses that are searched if the bare sheet does not explain the sensors' responses. More
+/// take longer, and the lowest modes do not show them.
 const STRAYS: usize = 2;
 
 /// Highest frequency of the modes used, relative to the top of the band: the field near an actuator consists of many modes.
@@ -57,7 +57,7 @@ pub(super) struct Quick {
 }
 
 impl Quick {
-    /// Fits the model; the error says, in words, why there is none.
+    /// Fits the model to the sensors' responses; the error is the reason, in words, why there is no model.
     pub fn new(
         surface: &Surface,
         measured: &Measured,
@@ -89,7 +89,7 @@ impl Quick {
         Ok(quick)
     }
 
-    /// The model with stray masses on the sheet, if that makes it a better one.
+    /// This model with stray masses on the sheet, if they improve it.
     fn with_strays(self, part: &Surface, heard: &Measured, plan: &FitOptions) -> Self {
         match fit(part, heard, &FitOptions { strays: STRAYS, ..plan.clone() }) {
             Ok(fitted) if fitted.unexplained() < self.fitted.unexplained() => Self { fitted, ..self },
@@ -97,8 +97,8 @@ impl Quick {
         }
     }
 
-    /// The model fitted without the sensors that speak against it, if without a few of them there is a good one: one channel that is
-    /// wrong spoils the model for all others.
+    /// The model fitted without the sensors that agree with it least, if leaving out a few of them gives a
+    /// good one: a single wrong channel spoils the model for all others.
     fn without_odd_sensors(self, part: &Surface, heard: &Measured, plan: &FitOptions) -> Self {
         if self.fitted.unexplained() < SPOILT {
             return self;
@@ -133,7 +133,8 @@ impl Quick {
         left.iter().map(|sensor| (*sensor, like(sensor))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(s, _)| s)
     }
 
-    /// As [`Quick::new`], with some of the actuators of a model that was fitted to all before.
+    /// Uses a model that has already been fitted to all actuators, restricted to some of them, instead of
+    /// fitting one as [`Quick::new`] does; the error is the reason, in words, why there is no comparison.
     pub fn known(
         fitted: &Fitted,
         surface: &Surface,
@@ -171,26 +172,27 @@ impl Quick {
         Ok(Self { fitted, band, actuators, frequencies, sensed, probed })
     }
 
-    /// The model prepared for comparisons.
+    /// The fitted model, prepared for comparisons with measured responses.
     pub fn checker(&self) -> Checker<'_> {
         Checker::new(self.fitted.beyond(), &self.frequencies)
     }
 }
 
-/// What a model is fitted to where that is quick: some of the actuators, in the band of the lowest modes.
+/// Data for a quick fit of the model: some of the actuators, in the band of the lowest modes.
 pub(super) struct Part {
-    /// Indices of these actuators.
+    /// Indices, among all actuators of the surface, of those used.
     pub actuators: Vec<usize>,
-    /// The surface with these actuators alone, and this band.
+    /// The surface with only the actuators used, and with `band` as its band.
     pub surface: Surface,
-    /// The responses between them.
+    /// The measured responses between the actuators used.
     pub heard: Measured,
-    /// The band, in Hz.
+    /// Lowest and highest frequency of the fit, in Hz.
     pub band: [f64; 2],
 }
 
 impl Part {
-    /// About [`VerifyOptions::modes`] modes, and actuators that are not dead; the error says, in words, why there is nothing to fit.
+    /// Selects about [`VerifyOptions::modes`] modes, and actuators that are not dead; the error is the
+    /// reason, in words, why there is nothing to fit.
     pub fn of(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Result<Self, String> {
         let actuators = chosen(surface, measured, options)?;
         let heard = among(measured, &actuators, surface.actuators.len());

@@ -1,11 +1,12 @@
-//! Recordings of each sensor, compared with the model at its actuator's place.
+//! Comparison of each sensor's recordings with the model at its actuator's place.
 
 use super::checker::Projected;
 use super::judge::Bench;
 use super::verdict::Doubted;
 use unripple_core::{ActuatorKind, Point};
 
-/// Correlation of a sensor's responses with the model at its place, from which the sensor is not doubted.
+/// Smallest correlation of a sensor's responses with the model at its place, at which the sensor is not
+/// doubted.
 const UNLIKE: f64 = 0.5;
 
 /// Doubts about single sensors.

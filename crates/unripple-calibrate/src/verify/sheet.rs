@@ -5,14 +5,16 @@ use std::f64::consts::TAU;
 use unripple_core::{Outline, Point};
 use unripple_linalg::{Mat, product};
 
-/// Places per shortest wavelength compared: half a step from the best place, the correlation has fallen to 0.9.
+/// Number of places per shortest wavelength compared: half a step from the best place, the correlation has
+/// fallen to 0.9.
 const DENSE: f64 = 7.0;
 
 /// Largest number of places along a side: 8100 in all, which bounds time and memory; a longer sheet is searched less
 /// finely.
 const MOST: f64 = 90.0;
 
-/// Delays tried per shortest period compared: an eighth of it apart, where a correlation has fallen to 0.92 at most.
+/// Number of delays tried per shortest period compared: an eighth of it apart, where a correlation has
+/// fallen to 0.92 at most.
 const DELAYS: f64 = 8.0;
 
 /// Finest step of a search, in metres and (`FINE_PERIOD`) in periods of the highest frequency. Finer than any error
@@ -20,9 +22,9 @@ const DELAYS: f64 = 8.0;
 const FINE: f64 = 2e-5;
 const FINE_PERIOD: f64 = 1e-3;
 
-/// Places all over a sheet, with the model's shapes and power there.
+/// Places all over a sheet, with the mode shapes and the power of the model's responses there.
 pub(super) struct Sheet<'a> {
-    /// The model that responses are compared with.
+    /// The model with which responses are compared.
     pub checker: &'a Checker<'a>,
     outline: &'a Outline,
     places: Vec<Point>,
@@ -35,11 +37,11 @@ pub(super) struct Sheet<'a> {
 /// A place and a delay, and how well a response fits the model there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spot {
-    /// The place, in m.
+    /// A place on the sheet, in m.
     pub at: Point,
     /// Delay of the response, in s.
     pub late: f64,
-    /// Agreement with the model there.
+    /// Agreement of the response with the model at this place and delay.
     pub found: Match,
 }
 
@@ -60,14 +62,14 @@ impl<'a> Sheet<'a> {
         Self { checker, outline, places, shapes, powers, pitch, period: 1.0 / top_hz }
     }
 
-    /// Delays from one to another (s), fine enough for a search.
+    /// Delays from `from` to `to` (s), in steps fine enough for a search.
     pub fn delays(&self, from: f64, to: f64) -> Vec<f64> {
         let step = self.period / DELAYS;
         let count = ((to - from) / step).ceil().max(0.0) as usize;
         (0..=count).map(|n| from + n as f64 * step).collect()
     }
 
-    /// For each delay (s), the largest square of the correlation over all places, 0 to 1.
+    /// For each assumed delay (s), the largest squared correlation with the model over all places, 0 to 1.
     pub fn likest(&self, heard: &Projected, delays: &[f64]) -> Vec<f64> {
         let products = product(self.shapes.as_ref(), self.checker.products(heard, delays).as_ref());
         (0..delays.len())
@@ -80,7 +82,8 @@ impl<'a> Sheet<'a> {
             .collect()
     }
 
-    /// The best place of the whole sheet at one delay (s).
+    /// The place on the whole sheet at which measured responses fit the model best, for an assumed delay
+    /// (s).
     pub fn anywhere(&self, heard: &Projected, late: f64) -> Option<Spot> {
         let products = product(self.shapes.as_ref(), self.checker.products(heard, &[late]).as_ref());
         let spot = |p: usize| Spot {
@@ -94,7 +97,8 @@ impl<'a> Sheet<'a> {
         Some(self.nearby(heard, best.at, late, self.pitch / 2.0))
     }
 
-    /// The best place within `reach` (m) of one, and the best delay near one (s), by ever smaller steps.
+    /// The place near `at` and the delay near `late` (s) at which measured responses fit the model best, by
+    /// a search with ever smaller steps, from `reach` (m) on.
     pub fn nearby(&self, heard: &Projected, at: Point, late: f64, reach: f64) -> Spot {
         let mut best = Spot { at, late, found: self.checker.at(heard, at, late) };
         let (mut step, mut turn) = (reach, self.period / DELAYS);
@@ -117,7 +121,7 @@ impl<'a> Sheet<'a> {
         best
     }
 
-    /// The best of some delays (s) at one place (m).
+    /// The delay, among `delays` (s), at which measured responses fit the model at the place `at` (m) best.
     pub fn latest(&self, heard: &Projected, at: Point, delays: &[f64]) -> Option<Spot> {
         let found = self.checker.late(heard, at, delays);
         let spots = delays.iter().zip(found).map(|(late, found)| Spot { at, late: *late, found });

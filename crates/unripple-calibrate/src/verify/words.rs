@@ -5,8 +5,8 @@ use super::levels::Levels;
 use super::verdict::{Doubted, PointVerdict, VerifyOptions};
 use unripple_core::Point;
 
-/// Distance from the stated place, in shortest wavelengths of the band, from which a point is doubtful, and (`WORTH`)
-/// from which it is reported.
+/// Smallest distance from the stated place, in shortest wavelengths of the band, at which a point is
+/// doubtful, and (`WORTH`) at which it is reported.
 const FAR: f64 = 0.25;
 const WORTH: f64 = 0.025;
 
@@ -53,7 +53,7 @@ pub(super) fn verdict(
 }
 
 impl Bench<'_> {
-    /// The shortest wavelength of the surface's band.
+    /// The shortest wavelength of the surface's band, in metres.
     pub fn surface_wave(&self) -> f64 {
         unripple_physics::Medium::of(&self.surface.sheet).lambda_min(self.surface.emission.band[1])
     }
@@ -116,7 +116,7 @@ fn nowhere(bench: &Bench, unexplained: f64) -> String {
     )
 }
 
-/// How a point is measured again, in words.
+/// Instruction to measure a point again, in words.
 fn again(bench: &Bench) -> &'static str {
     if bench.options.probe { "record it" } else { "tap" }
 }
@@ -133,7 +133,7 @@ fn away(from: Point, to: Point) -> String {
     format!("{:.1} mm {way}", 1e3 * from.distance(to))
 }
 
-/// Notes and doubts of all points, alike ones together.
+/// Collects the notes and doubts of all points.
 pub(super) fn gather(
     bench: &Bench,
     points: &[PointVerdict],

@@ -1,29 +1,30 @@
-//! How the threads of a card wake the program that waits for them.
+//! Waking of the program by the threads of a card for which it waits.
 
 use std::sync::atomic::{Ordering, fence};
 use std::sync::{PoisonError, RwLock};
 use std::thread::{Thread, ThreadId};
 
-/// Wakes one thread. Ringing neither waits nor allocates.
+/// Wakes one registered thread. Waking neither blocks nor allocates.
 #[derive(Debug, Default)]
 pub(super) struct Bell(RwLock<Option<Thread>>);
 
 impl Bell {
-    /// Registers the calling thread as the one to wake. After this call, and before it parks, the thread has to look
-    /// again for what it waits for.
+    /// Registers the calling thread as the one to wake. After this call, and before it parks, the thread has
+    /// to check again whether it still needs to wait.
     pub(super) fn listen(&self) {
         *self.0.write().unwrap_or_else(PoisonError::into_inner) = Some(std::thread::current());
-        // Either the ringer sees who listens, or the listener sees what the ringer brought.
+        // Either the waking thread sees the registered one, or the latter sees the data of the former.
         fence(Ordering::SeqCst);
     }
 
-    /// Whether a thread is the registered one.
+    /// Whether `thread` is the registered thread.
     pub(super) fn wakes(&self, thread: ThreadId) -> bool {
         let listener = self.0.read().unwrap_or_else(PoisonError::into_inner);
         listener.as_ref().is_some_and(|listener| listener.id() == thread)
     }
 
-    /// Wakes the registered thread. While one registers, none has to be woken: that one looks by itself.
+    /// Wakes the registered thread. A thread that is just registering need not be woken: it checks by
+    /// itself.
     pub(super) fn ring(&self) {
         fence(Ordering::SeqCst);
         if let Ok(listener) = self.0.try_read()

@@ -1,4 +1,5 @@
-//! A card of two clocks: they start late, run apart, stop, never start, and take chunks of odd sizes.
+//! Tests with a card whose two sides have different clocks, which start late, run apart, stop, never start,
+//! and use chunks of odd sizes.
 
 use super::ferry::Ferry;
 use super::stand_in::{BLOCK, Clock, Held, RATE};

@@ -3,12 +3,13 @@
 use super::side::Side;
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
 
-/// Largest lag of a side behind the other on one clock, in largest chunks of both: a card holds two of each, and the
-/// system that carries them between card and program may be late by one more.
+/// Largest lag of a side behind the other if both run on one clock, as a multiple of the sum of their
+/// largest chunks: a card holds two of each, and the system that transfers them between card and program may
+/// be late by one more.
 const SLACK: u32 = 3;
 
-/// Number of chunks at the beginning of a side in which a lag does not count as another clock. A card's sides start one
-/// after the other, and the first chunks that are played only fill the card's buffer.
+/// Number of chunks after the start of a side in which a lag is not taken for a difference of clocks. A
+/// card's sides start one after the other, and the first chunks that are played only fill the card's buffer.
 const FIRST: u32 = 8;
 
 /// Counter of one side.
@@ -24,16 +25,16 @@ struct Count {
 
 /// Frame counters of both sides of a card.
 ///
-/// Recorded samples are matched to played ones by their number, so both have to count the same time. A side that was
-/// not called for a while, or whose clock is slower, is behind; it then counts on from where the other one is, so
-/// that nobody waits for frames that never come.
+/// Recorded samples are matched to played ones by their number, so both have to count the same time. A side
+/// that was not called for a while, or whose clock is slower, is behind; its counter is then set to that of
+/// the other side, so that nobody waits for frames that never come.
 #[derive(Debug, Default)]
 pub(super) struct Counts {
     sides: [Count; 2],
     /// Frames by which a side was behind when that was first noticed: positive for playing, negative for recording; 0 if
     /// never.
     apart: AtomicI64,
-    /// Whether recording has to count on from where playing is, however little it is behind.
+    /// Whether the counter of recording is to be set to that of playing, however little it is behind.
     catch_up: AtomicBool,
 }
 
@@ -42,7 +43,7 @@ impl Counts {
         &self.sides[side as usize]
     }
 
-    /// The number of the first frame of a side's next chunk, `at` being where that side has come to.
+    /// The number of the first frame of a side's next chunk, given the side's counter `at`.
     pub(super) fn next(&self, side: Side, at: u32, frames: usize) -> u32 {
         let (own, other) = (self.side(side), self.side(side.other()));
         let frames = frames as u32;
@@ -66,17 +67,17 @@ impl Counts {
         at.wrapping_add(behind as u32)
     }
 
-    /// Notes that a side has passed a chunk and come to frame `at`.
+    /// Records that a side has processed a chunk, after which its counter is `at`.
     pub(super) fn passed(&self, side: Side, at: u32) {
         let own = self.side(side);
         own.at.store(at, Ordering::Release);
-        // Never 0 again, which says that it has not begun.
+        // Never 0 again, since 0 means that the side has not begun.
         let more = |chunks: u32| Some(chunks.checked_add(1).unwrap_or(FIRST));
         let _ = own.chunks.fetch_update(Ordering::Release, Ordering::Relaxed, more);
     }
 
-    /// Asks recording to count on from where playing is: it is too late for the program, though not too late for one
-    /// clock.
+    /// Requests that the counter of recording be set to that of playing: it is too late for the program,
+    /// though not by so much that the clocks must differ.
     pub(super) fn catch_up(&self) {
         self.catch_up.store(true, Ordering::Relaxed);
     }

@@ -12,16 +12,16 @@ use std::sync::{Arc, Mutex};
 pub(super) struct Events {
     /// Frame counters of the two sides, which begin when the card begins to play.
     pub(super) counts: Counts,
-    /// Wakes the program whenever a side has moved on, or is gone.
+    /// Wakes the program whenever a side has processed a chunk, or the card is gone.
     pub(super) bell: Bell,
-    /// Number of times that the card itself ran out of samples.
+    /// Number of underruns and overruns that the card reported.
     pub(super) xruns: AtomicU64,
-    /// Why the card is gone, once it is.
+    /// The reason why the card is gone; `None` while it is there.
     pub(super) gone: Mutex<Option<String>>,
 }
 
 impl Events {
-    /// Why the card is gone; `None` while it is not.
+    /// The reason why the card is gone; `None` while it is there.
     pub(super) fn why_gone(&self) -> Option<String> {
         self.gone.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).clone()
     }
@@ -33,7 +33,8 @@ impl Events {
     }
 }
 
-/// The end of the thread that plays. It neither waits nor allocates: where drive is late it plays silence.
+/// The end of the ring buffers in the thread that plays. It neither waits nor allocates: if drive is late,
+/// it plays silence.
 pub(super) struct Player {
     outputs: usize,
     drive: Consumer<f32>,
@@ -43,8 +44,8 @@ pub(super) struct Player {
     events: Arc<Events>,
 }
 
-/// The end of the thread that records. It neither waits nor allocates: samples that the program does not take are
-/// dropped.
+/// The end of the ring buffers in the thread that records. It neither waits nor allocates: samples that the
+/// program does not read are dropped.
 pub(super) struct Recorder {
     inputs: usize,
     heard: Producer<u32>,
@@ -52,7 +53,7 @@ pub(super) struct Recorder {
     events: Arc<Events>,
 }
 
-/// The program's end of the rings: drive, the times at which it was played, and recorded frames.
+/// The end of the ring buffers in the program: drive, the times at which it was played, and recorded frames.
 pub(super) struct Shore {
     pub(super) drive: Producer<f32>,
     pub(super) when: Consumer<u32>,
@@ -76,13 +77,14 @@ pub(super) fn crossing(
 }
 
 impl Player {
-    /// Counts frames from another number, as after a long time.
+    /// Sets the frame counter to another number, as after a long time.
     #[cfg(test)]
     pub(super) fn begin_at(&mut self, at: u32) {
         self.at = at;
     }
 
-    /// Plays `frames` frames: `put` takes a frame's number, an output and its sample.
+    /// Plays `frames` frames: `put` is called with each frame's number in the chunk, an output and its
+    /// sample.
     pub(super) fn play(&mut self, frames: usize, mut put: impl FnMut(usize, usize, f32)) {
         self.at = self.events.counts.next(Side::Playback, self.at, frames);
         let outputs = self.outputs.max(1);
@@ -102,14 +104,14 @@ impl Player {
 }
 
 impl Recorder {
-    /// Counts frames from another number, as [`Player::begin_at`] does.
+    /// Sets the frame counter to another number, as [`Player::begin_at`] does.
     #[cfg(test)]
     pub(super) fn begin_at(&mut self, at: u32) {
         self.at = at;
     }
 
-    /// Records `frames` frames: `get` gives the sample of a frame and an input. Frames before the first played one do
-    /// not count.
+    /// Records `frames` frames: `get` returns the sample of a frame and an input. Frames before the first
+    /// played one are ignored.
     pub(super) fn hear(&mut self, frames: usize, get: impl Fn(usize, usize) -> f32) {
         if self.events.counts.chunks(Side::Playback) == 0 {
             return;

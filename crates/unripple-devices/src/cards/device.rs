@@ -12,38 +12,42 @@ use std::sync::Arc;
 use std::time::Duration;
 use unripple_core::{Device, DeviceError, Layout, Status, require};
 
-/// Smallest number of frames that the rings hold, since the card may take many at once: more than a second at usual rates.
+/// Smallest number of frames for which the ring buffers have room, since the card may process many at once:
+/// more than a second at usual rates.
 const ROOM: usize = 65_536;
 
-/// Smallest lead of the drive, in periods of the card. Two are in the card's buffer, and as many pass until samples recorded with
-/// them arrive; with fewer, a card whose periods are longer than blocks would be late each time.
+/// Smallest lead of the drive, in periods of the card. Two are in the card's buffer, and two more pass until
+/// samples recorded with them arrive; with fewer, a card whose periods are longer than blocks would be late
+/// each time.
 const PERIODS: usize = 4;
 
 /// Options for opening a sound card.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardOptions {
-    /// The device that plays, as [`found`](super::found) calls it; the system's own choice where `None`.
+    /// Identifier of the device that plays, from [`found`](super::found); the system's default device if
+    /// `None`.
     pub playback: Option<String>,
-    /// The device that records; the one that plays where `None`. Both have to be of one card: two have two clocks.
+    /// Identifier of the device that records; that of the device that plays if `None`. Both must belong to
+    /// one card, since two cards have different clocks.
     pub capture: Option<String>,
-    /// Names of the outputs: actuators, on the card's first channels in order.
+    /// Names of the outputs (actuators), which are assigned to the card's first output channels in order.
     pub outputs: Vec<String>,
-    /// Names of the inputs: sensors, probe, on the card's first channels in order.
+    /// Names of the inputs (sensors, probe), which are assigned to the card's first input channels in order.
     pub inputs: Vec<String>,
     /// Samples per second.
     pub rate: f64,
     /// Samples per block.
     pub block: usize,
-    /// Drive that a sample of 1 stands for, in the actuators' unit.
+    /// Drive, in the actuators' unit, to which a sample of 1 (full scale) corresponds.
     pub full_scale: f64,
-    /// Number of blocks by which the drive is ahead of the card: the program may be late by them, and all latencies are longer by
-    /// them. Four periods of the card, if that is more.
+    /// Number of blocks of drive that are buffered ahead of the card, and at least four periods of the card:
+    /// the program may be late by that time, and all latencies are longer by it.
     pub lead: usize,
-    /// Time without a chunk of one of the two sides after which the card counts as stalled, in s.
+    /// Time, in s, after which the card counts as stalled if playback or recording has made no progress.
     pub patience: f64,
-    /// Whether a card counts as lost if it ran out of samples itself, or if its two sides do not count together: its latency has
-    /// changed then, which matters when measuring. Otherwise playing continues, and the side that is behind continues where the
-    /// other is.
+    /// Whether a card counts as lost after an underrun or overrun, or if playback and recording do not stay
+    /// in step: its latency has changed then, which matters for measurements. If false, playing continues,
+    /// and the side that is behind continues where the other is.
     pub strict: bool,
 }
 
@@ -64,13 +68,14 @@ impl Default for CardOptions {
     }
 }
 
-/// A sound card as a device, playing and recording at once.
+/// A sound card as a device, which plays and records at the same time.
 ///
-/// The card's threads neither wait nor allocate: where drive is late, silence is played, and samples that the program does not
-/// take are dropped. Missed blocks, those of a pause between exchanges included, are in [`Status::lost`] as soon as the first
-/// block after them is recorded, and the latency after them is the same as before. Both sides have to run on one clock: if their
-/// counts differ by more than their buffers explain, a strict card is lost, and the error says so. Before a measurement let some
-/// blocks of silence pass, and compare `lost` after them with `lost` at its end.
+/// The card's threads neither wait nor allocate: if drive is late, silence is played, and samples that the
+/// program does not read are dropped. Missed blocks, those of a pause between exchanges included, are in
+/// [`Status::lost`] as soon as the first block after them is recorded, and the latency after them is the
+/// same as before. Both sides have to run on one clock: if their counts differ by more than their buffers
+/// explain, a strict card is lost, and the error says so. Before a measurement let some blocks of silence
+/// pass, and compare `lost` after them with `lost` at its end.
 ///
 /// ```no_run
 /// use unripple_core::Device;
@@ -94,20 +99,20 @@ impl std::fmt::Debug for Card {
     }
 }
 
-/// Number of blocks by which the drive is ahead: as many as asked for, or as a card of some period (frames) needs, as far as the
-/// rings hold them.
+/// Number of blocks by which the drive is ahead: the number requested, or that needed by a card with some
+/// period (frames) if it is larger and the ring buffers have room.
 pub(super) fn blocks_ahead(asked: usize, block: usize, period: usize, room: usize) -> usize {
     let needed = (PERIODS * period).div_ceil(block);
     needed.min((room / block).saturating_sub(2)).max(asked)
 }
 
 impl Card {
-    /// Opens a card, playing silence.
+    /// Opens a card, which plays silence until blocks are exchanged.
     ///
     /// # Errors
-    /// [`DevicesError::Card`] if there is none by that name, or it refuses the rate or the format of samples;
-    /// [`DevicesError::Channels`] if it has fewer channels than asked for; [`DevicesError::Range`] and [`DevicesError::Size`] for
-    /// options out of range.
+    /// [`DevicesError::Card`] if there is none by that name, or it refuses the rate or the format of
+    /// samples; [`DevicesError::Channels`] if it has fewer channels than requested; [`DevicesError::Range`]
+    /// and [`DevicesError::Size`] for options out of range.
     pub fn open(options: &CardOptions) -> Result<Self, DevicesError> {
         let (block, lead) = (options.block as f64, options.lead as f64);
         require("samples of a block", (1.0..=65_536.0).contains(&block), "1 to 65536", block)?;

@@ -8,37 +8,39 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 use unripple_core::{Device, DeviceError, Layout, State, Status};
 
-/// Number of blocks in a row that were recorded too late for playing to wait, after which recording counts on from where
-/// playing is: a callback that was late once does not reach it.
+/// Number of successive blocks that were recorded too late for playback to wait, after which the counter of
+/// recording is set to that of playback: a single late callback does not reach it.
 const LATE: u32 = 8;
 
-/// Settings of waiting for a card.
+/// Settings for waiting for a card.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Manners {
     /// Number of blocks by which the drive is ahead.
     pub(super) lead: u64,
-    /// Time without a chunk of a side after which the card counts as stalled.
+    /// Time after which the card counts as stalled if playback or recording has made no progress.
     pub(super) patience: Duration,
-    /// Whether a card counts as lost if it ran out of samples, or if its sides do not count together, since its latency has
-    /// changed. Otherwise playing continues, and does not wait for recordings that come too late.
+    /// Whether a card counts as lost after an underrun or overrun, or if its sides do not stay in step,
+    /// since its latency has changed. If false, playing continues, and does not wait for recordings that
+    /// come too late.
     pub(super) strict: bool,
 }
 
 /// Exchanges blocks with a card's two threads.
 ///
-/// Frame `i` of drive is answered by the frame that was recorded when it was handed to the card, so that latency stays the same
-/// whatever was missed in between: silence that was played for want of drive, or recorded frames that the program did not take.
+/// The answer to frame `i` of drive is the frame that was recorded when the former was handed to the card,
+/// so that latency does not change if frames were missed in between: silence that was played since drive was
+/// missing, or recorded frames that the program did not read.
 pub(super) struct Ferry {
     layout: Layout,
     shore: Shore,
     events: Arc<Events>,
     streams: Box<dyn Streams>,
     manners: Manners,
-    /// Number of chunks of each side at the last look, and the time without new ones since.
+    /// Number of chunks of each side at the last check, and the time without new ones since then.
     seen: [u32; 2],
     quiet: [Duration; 2],
     driven: u64,
-    /// Blocks whose answer was not there in time.
+    /// Number of blocks whose answer did not arrive in time.
     owed: u64,
     /// The block that is being recorded: its frames so far, when its next frame was played, and frames missed.
     frames: Vec<f32>,
@@ -108,7 +110,7 @@ impl Ferry {
         }
     }
 
-    /// An error if the card is gone, or is to count as gone.
+    /// Returns an error if the card is gone, or counts as gone.
     fn alive(&mut self) -> Result<(), DeviceError> {
         let strict = self.manners.strict;
         if let Some(why) = strict.then(|| self.events.counts.apart()).flatten() {
@@ -117,7 +119,8 @@ impl Ferry {
         self.events.why_gone().map_or(Ok(()), |why| Err(self.lose(why)))
     }
 
-    /// Waits until a side may have moved on, unless the card is gone or one was waited for long enough.
+    /// Waits until a side may have processed a chunk; returns an error if the card is gone or a side has
+    /// stalled.
     fn wait(&mut self) -> Result<(), DeviceError> {
         self.alive()?;
         let sides = if self.layout.inputs.is_empty() { 1 } else { 2 };
@@ -143,15 +146,16 @@ impl Ferry {
         Ok(())
     }
 
-    /// Whether waiting any longer would leave the side that plays without drive, if playing comes before recording (not
-    /// strict).
+    /// Whether waiting any longer would leave playback without drive, if playing has priority over recording
+    /// (not strict).
     fn starves(&self) -> bool {
         let waiting = self.shore.drive.buffer().capacity() - self.shore.drive.slots();
         let next = self.events.counts.largest(Side::Playback) * self.layout.outputs.len();
         !self.manners.strict && waiting < next
     }
 
-    /// Waits for one block and takes it. If that takes too long, the frames that have come are kept for the next call.
+    /// Waits for one recorded block and reads it. If that takes too long, the frames that have arrived are
+    /// stored for the next call.
     fn pop(&mut self, heard: &mut [f32]) -> Result<(), DeviceError> {
         let (block, inputs) = (self.layout.block, self.layout.inputs.len());
         while self.frames.len() < block * inputs.max(1) {
@@ -190,7 +194,7 @@ impl Ferry {
         Ok(())
     }
 
-    /// Takes the frame recorded at some time, if it is there; `false` to wait for it.
+    /// Reads the frame recorded at some time, if it has arrived; returns `false` if it has to be waited for.
     fn frame(&mut self, played: u32) -> bool {
         let inputs = self.layout.inputs.len();
         if inputs == 0 {
@@ -229,7 +233,7 @@ impl Device for Ferry {
         if let Some(why) = self.events.why_gone() {
             status.state = State::Lost(why);
         }
-        // What is ahead in the ring, and then in the card.
+        // Samples ahead in the ring buffer, and then in the card.
         let period = self.events.counts.largest(Side::Playback);
         status.waiting = self.manners.lead * self.layout.block as u64 + period as u64;
         status
@@ -246,7 +250,7 @@ impl Device for Ferry {
             self.events.lose(why.into());
         }
         self.alive()?;
-        // Answers that came too late once are thrown away, so that latency stays what it is.
+        // Answers that came too late once are discarded, so that latency does not change.
         while self.owed > 0 {
             self.pop(heard)?;
             self.owed -= 1;

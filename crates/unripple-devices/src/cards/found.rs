@@ -1,33 +1,33 @@
-//! Sound cards that are there, and what they offer.
+//! List of the sound cards that are present, and of the formats they offer.
 
 use super::side::Side;
 use cpal::traits::{DeviceTrait, HostTrait};
 
-/// A device of the sound system.
+/// A device of the sound system, which can play, record or both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardFound {
     /// Identifier of the device, for [`CardOptions`](super::CardOptions).
     pub id: String,
     /// Name of the device, for display.
     pub name: String,
-    /// What the device can play; `None` if it cannot.
+    /// Formats in which the device can play; `None` if it cannot play.
     pub playback: Option<Offer>,
-    /// What the device can record; `None` if it cannot.
+    /// Formats in which the device can record; `None` if it cannot record.
     pub capture: Option<Offer>,
 }
 
 /// The channels, rates and block sizes that a device offers in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offer {
-    /// Fewest and most channels.
+    /// Smallest and largest number of channels.
     pub channels: [usize; 2],
-    /// Lowest and highest rate, in Hz.
+    /// Lowest and highest sample rate, in Hz.
     pub rates: [f64; 2],
-    /// Smallest and largest block, in samples, where the system says so.
+    /// Smallest and largest block size, in samples; `None` if the system does not report them.
     pub blocks: Option<[usize; 2]>,
 }
 
-/// The devices of the sound system that can play or record; several may lead to the same card.
+/// Lists the devices of the sound system that can play or record; several of them may belong to one card.
 ///
 /// ```
 /// for card in unripple_devices::cards::found() {

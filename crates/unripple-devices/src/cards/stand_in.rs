@@ -1,4 +1,5 @@
-//! A simulated card for tests, with a clock of its own for each side. Time passes only while the program waits for it.
+//! A simulated card for tests, with a separate clock for each side. Time passes only while the program waits
+//! for the card.
 
 use super::crossing::{Events, Player, Recorder, crossing};
 use super::device::blocks_ahead;
@@ -16,7 +17,7 @@ pub(super) const AIR: usize = 77;
 /// Samples per second at the nominal rate.
 pub(super) const RATE: f64 = 48e3;
 
-/// One side's clock and manners. Times are in frames at the nominal rate since the card was opened.
+/// Clock and chunk sizes of one side. Times are in frames at the nominal rate since the card was opened.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
     /// Rate of the clock over the nominal rate.
@@ -38,20 +39,20 @@ impl Clock {
         self.chunks.iter().copied().max().unwrap()
     }
 
-    /// When so many frames have passed its converter.
+    /// The time at which `frames` frames have passed the converter.
     fn when(&self, frames: f64) -> f64 {
         let time = self.begins + frames / self.pace;
         if time > self.stop[0] { time + (self.stop[1] - self.stop[0]) } else { time }
     }
 
-    /// Frames that have passed its converter.
+    /// Number of frames that have passed the converter at a time.
     fn frames(&self, time: f64) -> f64 {
         let stood = (time.min(self.stop[1]) - self.stop[0]).max(0.0);
         (time - self.begins - stood) * self.pace
     }
 }
 
-/// The card: it records what it plays, [`AIR`] later.
+/// The simulated card: it records what it plays, [`AIR`] frames later.
 pub(super) struct StandIn {
     player: Player,
     recorder: Recorder,
@@ -69,7 +70,7 @@ pub(super) struct StandIn {
 pub(super) struct Held(pub(super) Arc<Mutex<StandIn>>);
 
 impl Held {
-    /// A card behind a ferry, drive being so many blocks ahead as a card of its periods needs, or as said.
+    /// Opens a simulated card, with drive `ahead` blocks ahead, or as many as a card of its periods needs.
     pub(super) fn open(plays: Clock, records: Clock, strict: bool, ahead: Option<usize>) -> (Self, Ferry) {
         let events = Arc::new(Events::default());
         let (player, recorder, shore) = crossing(2, 2, 65_536, &events);

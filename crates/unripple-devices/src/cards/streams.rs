@@ -10,9 +10,10 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-/// What plays and records behind a card's two sides: streams of the sound system, or what stands in for them.
+/// Source of the calls to a card's two sides: streams of the sound system, or a simulation of them.
 pub(super) trait Streams: Send {
-    /// Waits until a side may have moved on, at most so long; returns the time that it waited.
+    /// Waits until a side may have processed a chunk, for the time `at_most` at most; returns the time
+    /// waited.
     fn wait(&mut self, at_most: Duration) -> Duration;
 }
 
@@ -24,7 +25,7 @@ pub(super) struct Running {
 }
 
 impl Running {
-    /// Largest number of frames that a side is given at once, as far as the system says; 0 if it does not.
+    /// Largest number of frames that a side is called with, if the system reports it; otherwise 0.
     pub(super) fn period(&self) -> usize {
         let told = self.streams.iter().filter_map(|stream| stream.buffer_size().ok());
         told.max().map_or(0, |frames| frames as usize)
@@ -43,10 +44,11 @@ impl Streams for Running {
     }
 }
 
-/// Formats of samples that are understood, the best first.
+/// Sample formats that are supported, the best first.
 const FORMATS: [SampleFormat; 3] = [SampleFormat::F32, SampleFormat::I32, SampleFormat::I16];
 
-/// The device of a name, with or without the name of its sound system before it; the system's default for `None`.
+/// Finds a device by name, with or without the name of its sound system before it; the system's default for
+/// `None`.
 pub(super) fn find(named: Option<&str>, side: Side) -> Result<cpal::Device, DevicesError> {
     let host = cpal::default_host();
     let found = match (named, side) {
@@ -117,7 +119,7 @@ pub(super) fn refused(name: &str, error: &Error) -> DevicesError {
     DevicesError::Card { what: format!("`{name}`: {error}"), fix: fix.into() }
 }
 
-/// Notes what an error means while the card runs: the card is gone, or it ran out of samples once.
+/// Handles an error of a running card: the card is gone, or it had an underrun or overrun.
 fn told(events: &Events, error: &Error) {
     match error.kind() {
         ErrorKind::Xrun => {
@@ -129,7 +131,7 @@ fn told(events: &Events, error: &Error) {
     }
 }
 
-/// A stream that plays.
+/// Opens the stream that plays.
 pub(super) fn playback(
     device: &cpal::Device,
     (config, format): (StreamConfig, SampleFormat),
@@ -158,7 +160,7 @@ fn playback_as<T: SizedSample + FromSample<f32>>(
     device.build_output_stream(config, play, move |error| told(&events, &error), None)
 }
 
-/// A stream that records.
+/// Opens the stream that records.
 pub(super) fn capture(
     device: &cpal::Device,
     (config, format): (StreamConfig, SampleFormat),

@@ -1,4 +1,4 @@
-//! A device run as a JACK client, so that a virtual surface stands where a sound card would.
+//! A device that runs as a JACK client, so that a virtual surface can replace a sound card.
 
 use super::library::{Client, Cycle, Process};
 use crate::DevicesError;
@@ -6,12 +6,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use unripple_core::{Device, require};
 
-/// A device run as a client of a JACK server: a virtual surface then is to other clients what a sound card with the surface
-/// connected to it would be. For tests and experiments.
+/// A device that runs as a client of a JACK server: to other clients, a virtual surface then looks like a
+/// sound card with the surface connected to it. For tests and experiments.
 ///
-/// The client receives drive on ports `in_NAME`, one for each output of the device, and sends on `out_NAME`, one for each input;
-/// [`Links::Client`](super::Links::Client) connects to them. The server's own thread exchanges the blocks, so a device that
-/// takes its time delays the server: nothing is lost while it freewheels, otherwise cycles may be.
+/// The client receives drive on ports `in_NAME`, one for each output of the device, and sends on `out_NAME`,
+/// one for each input; [`Links::Client`](super::Links::Client) connects to them. The server's own thread
+/// exchanges the blocks, so that a slow device delays the server: while the server freewheels nothing is
+/// lost, otherwise cycles may be.
 ///
 /// ```no_run
 /// use unripple_devices::{Bridge, DevicesError, Virtual, VirtualOptions};
@@ -30,7 +31,7 @@ pub struct Bridge {
 }
 
 impl Bridge {
-    /// Runs a device as a client of some name on the named server, or on the default one.
+    /// Runs a device as a client called `name` on the named server, or on the default one.
     ///
     /// # Errors
     /// [`DevicesError::Jack`] if there is no library or server or it refuses; [`DevicesError::Size`] if the device's block is not
@@ -53,12 +54,13 @@ impl Bridge {
         Ok(Self { client, faults })
     }
 
-    /// Number of cycles in which the device gave nothing: it was lost, or the server's period changed.
+    /// Number of cycles in which no block was exchanged, since the device was lost or the server's period
+    /// had changed.
     pub fn faults(&self) -> u64 {
         self.faults.load(Ordering::Relaxed)
     }
 
-    /// Name of the client, as the server gave it.
+    /// Name of the client, as assigned by the server.
     pub fn name(&self) -> String {
         self.client.name()
     }

@@ -1,15 +1,15 @@
-//! Ports that a client's ports are connected to.
+//! Ports to which a client's ports are connected.
 
-/// The ports that a JACK client's ports are connected to.
+/// The ports to which a JACK client's ports are connected.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Links {
-    /// The system's playback and capture ports, in order.
+    /// The system's (physical) playback and capture ports, in order.
     #[default]
     System,
-    /// Another client, by its name: the port `out_a1` of this client to its `in_a1`, its `out_a1` to the port `in_a1` of
-    /// this one. [`Bridge`](super::Bridge) has such ports.
+    /// The ports of another client, by its name: `out_a1` of this client is connected to `in_a1` of the
+    /// other, and `out_a1` of the other to `in_a1` of this client. [`Bridge`](super::Bridge) has such ports.
     Client(String),
-    /// Ports by their full names: one to play to for each output, one to record from for each input.
+    /// Ports by their full names: one playback port for each output, and one capture port for each input.
     Ports {
         /// Ports that receive, in the order of the outputs.
         playback: Vec<String>,

@@ -1,4 +1,5 @@
-//! A JACK server (which PipeWire is, too) as a device, and a virtual surface as a client of one.
+//! A JACK server (PipeWire acts as one, too) as a device, and a virtual surface as a client of such a
+//! server.
 
 mod bridge;
 mod crossing;
@@ -18,8 +19,8 @@ pub use options::JackOptions;
 use events::Side;
 use library::Client;
 
-/// Properties of a JACK server: rate, samples per cycle, and the names of all ports that sound can be sent to and
-/// comes from.
+/// Properties of a JACK server: sample rate, samples per cycle, and the names of all its playback and
+/// capture ports.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Seen {
     pub(crate) rate: f64,
@@ -28,8 +29,9 @@ pub(crate) struct Seen {
     pub(crate) capture: Vec<String>,
 }
 
-/// Prepares a program for being ended from outside: waits until none of its clients is joining a JACK server or leaving it, ten seconds
-/// at most, and lets none do so any more. A program that ends by itself needs no call of this.
+/// Prepares a program for termination from outside: waits, ten seconds at most, until none of its clients is
+/// joining or leaving a JACK server, and prevents all later joining and leaving. A program that ends by
+/// itself need not call this.
 ///
 /// While a client joins or leaves, JACK 2 locks a database that all JACK programs of a user share. The lock of a program that ends
 /// meanwhile is never released: every JACK program started later waits for ever.
@@ -37,7 +39,7 @@ pub fn shut() {
     library::shut();
 }
 
-/// Asks a server for its properties, if one answers.
+/// Reads the properties of a server, if one answers.
 pub(crate) fn look(server: Option<&str>) -> Result<Seen, crate::DevicesError> {
     let client = Client::open("unripple-devices", server)?;
     Ok(Seen {

@@ -5,22 +5,24 @@ use super::links::Links;
 /// Options for joining a JACK server.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JackOptions {
-    /// Name of the client.
+    /// Name of this program as a client of the server.
     pub client: String,
-    /// Name of the server; the default one where `None`.
+    /// Name of the server; the default server if `None`.
     pub server: Option<String>,
-    /// Names of the outputs: actuators. The port of `a1` is `out_a1`.
+    /// Names of the outputs (actuators). The port of `a1` is called `out_a1`.
     pub outputs: Vec<String>,
-    /// Names of the inputs: sensors, probe. The port of `a1` is `in_a1`.
+    /// Names of the inputs (sensors, probe). The port of `a1` is called `in_a1`.
     pub inputs: Vec<String>,
-    /// What the client's ports are connected to.
+    /// Ports to which the client's ports are connected.
     pub links: Links,
-    /// Samples per block that is exchanged, 1 to 65536, whatever the server's period; that period where `None`.
+    /// Number of samples per exchanged block, 1 to 65536, independent of the server's period; equal to that
+    /// period if `None`.
     pub block: Option<usize>,
-    /// Drive that a sample of 1 stands for, in the actuators' unit.
+    /// Drive, in the actuators' unit, to which a sample of 1 (full scale) corresponds.
     pub full_scale: f64,
-    /// Number of blocks by which the drive is ahead of the server: the program may be late by them, and all latencies are longer by
-    /// them. As many as last two periods, if these are longer than blocks and that is more.
+    /// Number of blocks of drive that are buffered ahead of the server, and at least two periods of the
+    /// server if these are longer than blocks: the program may be late by that time, and all latencies are
+    /// longer by it.
     pub lead: usize,
     /// Time without a cycle after which the server counts as stalled, in s.
     pub patience: f64,

@@ -1,18 +1,19 @@
-//! Whether a server's cycles still reach its client.
+//! Check whether a server still calls its client in its cycles.
 
 use std::time::{Duration, Instant};
 
-/// Number of looks in a row that find the server running and the client not called, after which the client counts as left out: the
-/// first look after a server stood still may come just before it calls.
+/// Number of successive checks that find the server running and the client not called, after which the
+/// client counts as left out: the first check after a server had stopped may come just before it calls.
 const LOOKS: u32 = 3;
 
-/// The server's cycles and samples as last seen.
+/// The server's counts of cycles and samples at the last check.
 #[derive(Debug)]
 pub(super) struct Watch {
-    /// Cycles when one was last seen to pass, and when that was.
+    /// Number of cycles when the last one was seen to pass, and the time of that.
     cycles: u64,
     at: Instant,
-    /// The server's count of samples at the last look since, and looks in a row that found it moved.
+    /// The server's sample count at the last check since then, and the number of successive checks that
+    /// found it changed.
     frame: u32,
     moved: u32,
 }
@@ -20,29 +21,29 @@ pub(super) struct Watch {
 /// Progress of the server's cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pace {
-    /// So many cycles passed since the last look.
+    /// This number of cycles has passed since the last check.
     Passed(u64),
-    /// No cycle passed, but the patience is not over yet.
+    /// No cycle passed, but for less than the patience.
     Waiting,
-    /// No cycle passed for longer than the patience: the server stands still.
+    /// No cycle passed for longer than the patience: the server has stopped.
     Stands(Duration),
-    /// The server goes on without its client.
+    /// The server runs without calling its client.
     LeftOut(Duration),
 }
 
 impl Watch {
-    /// A watch from now on, when `cycles` cycles have passed.
+    /// A watch that begins now, when `cycles` cycles have passed.
     pub(super) fn new(cycles: u64) -> Self {
         Self { cycles, at: Instant::now(), frame: 0, moved: 0 }
     }
 
-    /// When a cycle was last seen to pass; now, if more have passed than were seen.
+    /// The time at which a cycle was last seen to pass; now, if `cycles` shows that more have passed.
     pub(super) fn last(&self, cycles: u64) -> Instant {
         if cycles > self.cycles { Instant::now() } else { self.at }
     }
 
-    /// Looks at the progress, after so many cycles. The server's own count of samples is asked for only when none passed for too
-    /// long.
+    /// Checks the progress, given the number of cycles so far. The server's own sample count is read only if
+    /// no cycle has passed for longer than the patience.
     pub(super) fn look(&mut self, cycles: u64, patience: Duration, frame: impl FnOnce() -> u32) -> Pace {
         let (more, since) = (cycles - self.cycles, self.at.elapsed());
         if more > 0 {

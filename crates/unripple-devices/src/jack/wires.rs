@@ -1,4 +1,4 @@
-//! Pairs of ports to connect, from and to, once a client has joined a server.
+//! Pairs of ports (source and destination) to connect after a client has joined a server.
 
 use super::events::Side;
 use super::library::Client;
@@ -9,7 +9,7 @@ use crate::DevicesError;
 /// Placeholder for the name of this client, which the server decides.
 pub(super) const OWN: &str = "\u{1}";
 
-/// Pairs of ports to connect, from and to.
+/// Pairs of ports to connect: source and destination.
 pub(super) fn wires(client: &Client, options: &JackOptions) -> Result<Vec<(String, String)>, DevicesError> {
     let (outputs, inputs) = (&options.outputs, &options.inputs);
     let (playback, capture) = match &options.links {

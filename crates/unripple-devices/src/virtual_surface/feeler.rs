@@ -6,39 +6,43 @@ use unripple_core::{Contact, FOCAL_RADIUS, Finger, Outline, Phase, Point, Surfac
 use unripple_dsp::{Threshold, Weighting};
 use unripple_physics::Medium;
 
-/// Distance of the samples at which the surface is watched: at 48 kHz every 83 µs, twelve times a period of 1 kHz. Twice as much
-/// costs half as much and may miss the largest displacement by more.
+/// Distance, in samples, between the instants at which the displacement is recorded: at 48 kHz 83 µs, twelve
+/// times a period of 1 kHz. Twice the distance costs half as much and may miss the largest displacement by
+/// more.
 const STRIDE: usize = 4;
 
-/// Number of places besides the fingers that are watched, along each side of the outline's bounding box: 36 in all, whose mean
-/// square stands for that of the whole sheet. Twice as many cost four times as much.
+/// Number of places, besides the fingers', at which displacement is recorded, along each side of the
+/// outline's bounding box: 36 in all, whose mean square represents that of the whole sheet. Twice as many
+/// cost four times as much.
 const ACROSS: usize = 6;
 
-/// The sensation of one finger on a virtual surface.
+/// What one finger on a virtual surface felt since the last call of [`Feeler::look`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feeling {
     /// Number of the finger, as in its [`Touch`].
     pub finger: u64,
     /// Place of the finger, in m.
     pub at: Point,
-    /// Largest displacement since the last look, weighted by the threshold of touch, in dB above it; `None` in silence.
+    /// Largest displacement since the last call of [`Feeler::look`], weighted by the threshold of touch, in
+    /// dB above it; `None` without motion.
     pub level_db: Option<f64>,
-    /// Contrast: largest velocity since the last look, relative to the rms velocity of the places outside all fingers' focal discs
-    /// at the same instant; `None` where nothing is felt.
+    /// Contrast: largest velocity since the last call of [`Feeler::look`], relative to the rms velocity, at
+    /// the same instant, of the places outside all fingers' focal discs; `None` if nothing is felt.
     pub contrast: Option<f64>,
 }
 
 /// Puts fingers on a virtual surface and computes what they feel.
 ///
-/// Each finger is a slot that is watched where the finger is; a grid of other places is watched for contrast. The fingers load the
-/// sheet, and what they feel is its motion under the load of all of them.
+/// The displacement is recorded at each finger's place and, for the contrast, at a grid of other places. The
+/// fingers load the sheet, and what they feel is its motion under the load of all of them.
 #[derive(Debug)]
 pub struct Feeler {
     handle: Handle,
-    /// The load of each finger on the surface; `None` where fingers do not load it.
+    /// The load of each finger on the surface; `None` if fingers do not load it.
     finger: Option<Finger>,
     outline: Outline,
-    /// The finger in each slot, whether it presses on the surface yet, whether it has left since the last look, and where it is.
+    /// The finger in each slot, whether it presses on the surface yet, whether it has lifted since the last
+    /// call of `look`, and its place.
     slots: Vec<Option<u64>>,
     pressing: Vec<bool>,
     left: Vec<bool>,
@@ -49,7 +53,7 @@ pub struct Feeler {
 }
 
 impl Feeler {
-    /// Watches a virtual surface for at most `most` fingers.
+    /// Prepares recording of what at most `most` fingers feel on a virtual surface.
     ///
     /// # Errors
     /// [`DevicesError`] if the surface cannot be watched.
@@ -82,8 +86,9 @@ impl Feeler {
         Self { finger: None, ..self }
     }
 
-    /// Takes in that a finger came, moved or went. One for which there is no slot is not felt; one for which the surface has no
-    /// room while others are still being lifted presses as soon as it has.
+    /// Processes a touch event: a finger came down, moved or lifted. Fingers beyond the largest number are
+    /// ignored. If the surface has no room for a finger while others are still being lifted, it presses as
+    /// soon as there is room.
     ///
     /// # Errors
     /// [`DevicesError`] for a finger that the surface does not know.
@@ -120,7 +125,7 @@ impl Feeler {
         Ok(())
     }
 
-    /// Follows the fingers: to be called once a block.
+    /// Updates the recorded places and the loads to the fingers' places; to be called once per block.
     ///
     /// # Errors
     /// [`DevicesError`] if the surface cannot be watched there.
@@ -138,7 +143,7 @@ impl Feeler {
         Ok(())
     }
 
-    /// The sensation of every finger since the last look, those that have left meanwhile included.
+    /// Returns what every finger felt since the last call, including fingers that have lifted since then.
     pub fn look(&mut self) -> Vec<Feeling> {
         let feelings = self.feelings();
         for (slot, left) in self.slots.iter_mut().zip(&mut self.left) {

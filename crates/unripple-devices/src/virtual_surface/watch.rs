@@ -1,70 +1,72 @@
-//! Displacement recorded at some places of a virtual surface.
+//! Recording of the displacement at some places of a virtual surface.
 
 use std::collections::VecDeque;
 use unripple_core::Point;
 use unripple_physics::stepper::Reading;
 
-/// Samples of each place that are kept until they are taken, the newest: 1.4 s at 48 kHz. Twice as many take twice
-/// the memory.
+/// Largest number of samples of each place that are stored until they are read, the newest: 1.4 s at 48 kHz.
+/// Twice as many take twice the memory.
 const KEPT: usize = 1 << 16;
 
-/// Number among the surface's readings of the probe, and of the first place.
+/// Index of the probe, and of the first recorded place, among the surface's readings.
 pub(super) const PROBE: usize = 0;
 const FIRST: usize = 1;
 
-/// Displacement at some places, kept until it is taken.
+/// Displacement recorded at some places, stored until it is read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
     /// Where displacement is recorded, in m.
     places: Vec<Point>,
     stride: usize,
-    /// Samples until the next that is kept.
+    /// Number of samples until the next that is stored.
     wait: usize,
     traces: Vec<VecDeque<f32>>,
-    /// Where the probe is, once it was moved.
+    /// Place of the probe; `None` until it is moved.
     probe: Option<Point>,
 }
 
 impl Watch {
-    /// A watch of every `stride`-th sample at these places (m).
+    /// A recorder of the displacement at these places (m), at every `stride`-th sample.
     pub fn new(places: &[Point], stride: usize, probe: Option<Point>) -> Self {
         let traces = vec![VecDeque::new(); places.len()];
         Self { places: places.to_vec(), stride: stride.max(1), wait: 0, traces, probe }
     }
 
-    /// Notes that the probe was moved to a place, in m.
+    /// Stores the place, in m, to which the probe was moved.
     pub fn set_probe(&mut self, at: Point) {
         self.probe = Some(at);
     }
 
-    /// Readings, by number, that have to move for the places to become these (in m), as many as there are.
+    /// Readings that have to move when the places are replaced by as many new `places` (in m): the index of
+    /// each among the surface's readings, and its new place.
     pub fn moves(&self, places: &[Point]) -> Vec<(usize, Point)> {
         let both = self.places.iter().zip(places).enumerate();
         both.filter(|(_, (old, new))| old != new).map(|(i, (_, new))| (FIRST + i, *new)).collect()
     }
 
-    /// Notes that the places are now these, in m.
+    /// Replaces the recorded places by `places`, in m.
     pub fn set_places(&mut self, places: &[Point]) {
         self.places = places.to_vec();
     }
 
-    /// Number of places that are recorded.
+    /// Number of places at which displacement is recorded.
     pub fn places(&self) -> usize {
         self.places.len()
     }
 
-    /// Where the probe is, in m, once it was moved.
+    /// Place of the probe, in m; `None` until it is moved.
     pub fn probe(&self) -> Option<Point> {
         self.probe
     }
 
-    /// The readings of the surface: velocity (m/s) at the probe, then displacement (m) at all other places.
+    /// The readings to be computed by the simulation: velocity (m/s) at the place `probe`, then displacement
+    /// (m) at all recorded places.
     pub fn probes(&self, probe: Point) -> Vec<(Point, Reading)> {
         let watched = self.places.iter().map(|place| (*place, Reading::Displacement));
         [(probe, Reading::Velocity)].into_iter().chain(watched).collect()
     }
 
-    /// Keeps every `stride`-th sample of a block, which has one plane of samples for each place.
+    /// Stores every `stride`-th sample of a block, which has `frames` samples in a row for each place.
     pub fn keep(&mut self, planes: &[f64], frames: usize) {
         if self.places.is_empty() || frames == 0 {
             return;
@@ -82,7 +84,7 @@ impl Watch {
         self.wait = first + kept * self.stride - frames;
     }
 
-    /// Displacement (m) kept since it was last taken, `[place][sample]`.
+    /// Returns and removes the displacement (m) stored since the last call, `[place][sample]`.
     pub fn take(&mut self) -> Vec<Vec<f32>> {
         self.traces.iter_mut().map(|trace| std::mem::take(trace).into()).collect()
     }

@@ -1,25 +1,25 @@
-//! Which channel is which: an assignment by normalised correlation.
+//! Assignment of channels to actuators and sensors by normalised correlation.
 
 use super::take::{ABOVE_NOISE, Takes};
 use std::collections::HashMap;
 use unripple_core::Layout;
 use unripple_dsp::{Convolver, rms};
 
-/// Share (-40 dB) of the loudest channel that a channel with a signal has at least.
+/// Smallest level of a channel with a signal, relative to the loudest channel: -40 dB.
 const ABOVE_OTHERS: f64 = 0.01;
 
-/// Correlation that an exchange of wires must add at least for each recording that it concerns, on average. Without
-/// it noise would exchange channels that are nearly alike.
+/// Smallest mean increase of the correlation, over the recordings concerned, at which an exchange of wires
+/// is accepted. Without it noise would exchange channels that are nearly alike.
 const WORTH: f64 = 0.05;
 
-/// Which actuator each output leads to, and which sensor each input comes from.
+/// The actuator to which each output is wired, and the sensor to which each input is wired.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Routes {
     pub(super) outputs: Vec<usize>,
     pub(super) inputs: Vec<usize>,
 }
 
-/// Normalised correlations of recordings with predictions, each made when it is asked for.
+/// Normalised correlations of recordings with predictions, each computed when it is first needed.
 #[derive(Debug)]
 pub(super) struct Likeness<'a> {
     takes: &'a Takes,
@@ -63,7 +63,8 @@ impl<'a> Likeness<'a> {
         let loudest = (0..outputs * inputs).map(level).fold(0.0, f64::max);
         let alive = |pairs: Vec<usize>| {
             let share = |pair: &usize| {
-                // A probe may be in other units than sensors: its own predictions say how loud it should be.
+                // A probe may have another unit than sensors: its predictions determine how loud it should
+                // be.
                 let expected = rms(&predicted[*pair]);
                 let most = predicted.iter().map(|p| rms(p)).fold(0.0, f64::max);
                 if most > 0.0 { ABOVE_OTHERS * loudest * expected / most } else { 0.0 }
@@ -118,7 +119,7 @@ pub(super) fn routes(likeness: &mut Likeness, layout: &Layout) -> Routes {
     let twin: Vec<Option<usize>> =
         layout.outputs.iter().map(|name| layout.inputs.iter().position(|other| other == name)).collect();
     let mut score = likeness.all(&routes);
-    // Each exchange raises the score by a least amount, so that this ends.
+    // Each exchange raises the score by a minimum amount, so that the loop ends.
     loop {
         let mut best: Option<(f64, f64, Routes)> = None;
         let mut attempt = |next: Routes, touched: usize, likeness: &mut Likeness| {

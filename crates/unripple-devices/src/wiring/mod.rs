@@ -1,4 +1,4 @@
-//! Which channel is silent, swapped or reversed: one actuator plays at a time, all inputs record it, and the
+//! Test for silent, swapped or reversed channels: one actuator plays at a time, all inputs record, and the
 //! recordings are compared with a model.
 
 mod expected;
@@ -22,10 +22,11 @@ use unripple_core::{Device, Layout};
 
 /// Sends a burst through one output at a time, records all inputs, and finds which actuator or sensor each channel is wired to.
 ///
-/// Each recording r of output o and input i is compared with each prediction p by its normalised correlation, at the one latency that
-/// explains most of all. The wiring is that whose sum of magnitudes is largest, found from the expected one by exchanging two outputs,
-/// two inputs, or both of one name as long as that helps. Signs follow from the product of an output's and an input's: a reversal of all
-/// outputs and all inputs together does not show.
+/// Each recording r of output o and input i is compared with each prediction p by its normalised
+/// correlation, at the one latency that explains most of all. The wiring is that whose sum of magnitudes is
+/// largest, found from the expected one by exchanging two outputs, two inputs, or both of one name as long
+/// as that helps. Signs follow from the product of an output's and an input's sign: a reversal of all
+/// outputs and all inputs together is not detected.
 ///
 /// # Errors
 /// [`DevicesError::Device`] if a block cannot be exchanged, [`DevicesError::Size`] if the model has other channels than the device,
@@ -67,8 +68,9 @@ pub fn check_wiring(
     Ok(judged(&takes, &predicted, &layout, options))
 }
 
-/// As [`check_wiring`], from measured responses, `heard[output][input][sample]`, instead of bursts. They are per unit impulse of drive,
-/// delayed by any latency; the level of each input does not matter. `layout` has the channels of the model alone.
+/// Finds the wiring as [`check_wiring`] does, from measured responses `heard[output][input][sample]` instead
+/// of bursts. They are per unit impulse of drive, with any latency; the level of each input does not matter.
+/// `layout` has only the channels of the model.
 ///
 /// # Errors
 /// As [`check_wiring`].

@@ -3,8 +3,9 @@
 use crate::DevicesError;
 use unripple_core::{Surface, require};
 
-/// Decay times from burst to burst, (`LOW`) the share of a burst's frequency whose decay counts, and (`LONGEST`) the longest pause,
-/// in s. After five decay times an amplitude is at 0.7 %; half as many leave 8 % of one burst in the next.
+/// Pause between bursts in decay times, (`LOW`) the frequency at which the decay time is taken, as a share
+/// of the burst's, and (`LONGEST`) the longest pause, in s. After five decay times an amplitude is at 0.7 %;
+/// half as many leave 8 % of one burst in the next.
 const PAUSE: f64 = 5.0;
 const LOW: f64 = 0.3;
 const LONGEST: f64 = 10.0;
@@ -17,13 +18,14 @@ const LONGEST: f64 = 10.0;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WiringOptions {
-    /// Centre frequency of the bursts, in Hz: low in the band, where a model that is a little wrong still holds.
+    /// Centre frequency of the bursts, in Hz: low in the band, where a slightly wrong model is still
+    /// accurate.
     pub frequency: f64,
     /// Length of a burst, in periods.
     pub cycles: f64,
     /// Peak of a burst, as a share of full scale.
     pub level: f64,
-    /// Time compared with the model from the burst's start on, in s.
+    /// Duration of the recording, from the burst's start on, that is compared with the model, in s.
     pub listen: f64,
     /// Longest latency that is searched, in s.
     pub max_latency: f64,
@@ -53,15 +55,15 @@ impl WiringOptions {
         Self { frequency: band[0] + 0.2 * (band[1] - band[0]), ..Self::default() }
     }
 
-    /// Options for a surface: bursts at a fifth of its band, each when the one before has died away to less than a
-    /// hundredth.
+    /// Options for a surface: bursts at a fifth of its band, each played when the one before has decayed to
+    /// less than a hundredth.
     pub fn for_surface(surface: &Surface) -> Self {
         let usual = Self::for_band(surface.emission.band);
         let decay = crate::perturbation::nominal_decay(surface, LOW * usual.frequency);
         Self { pause: (PAUSE * decay).min(LONGEST).max(usual.pause), ..usual }
     }
 
-    /// Refuses values that are out of range for a device of this rate, in Hz.
+    /// Checks that all values are in their ranges for a device of this sample rate, in Hz.
     pub(super) fn check(&self, rate: f64) -> Result<(), DevicesError> {
         let in_band = self.frequency > 0.0 && self.frequency < rate / 2.0;
         require("frequency of a burst in Hz", in_band, "positive, below half the rate", self.frequency)?;

@@ -1,4 +1,4 @@
-//! Which wires contradict reciprocity: responses between actuators show it without any model of the surface.
+//! Check of wires by the reciprocity of responses between actuators, without a model of the surface.
 
 use unripple_dsp::rms;
 
@@ -6,21 +6,21 @@ use unripple_dsp::rms;
 /// that would be suspected.
 const SUSPECT: f64 = 0.3;
 
-/// Largest share of that error that may be left after an exchange of wires for it to be named as the fault: one that leaves more
-/// explains less than half of it.
+/// Largest share of the error that may remain after an exchange of wires for the exchange to be reported as
+/// the fault: if more remains, it explains less than half of the error.
 const LEFT: f64 = 0.5;
 
 /// Result of a check of wires by reciprocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reciprocal {
-    /// Rms difference between the two directions of a pair, relative to the rms of the responses, over all pairs; gains and signs of
-    /// channels are free. 0 with fewer than two actuators.
+    /// Rms difference between the two directions of a pair, relative to the rms of the responses, over all
+    /// pairs, whatever the gains and signs of the channels; 0 with fewer than two actuators.
     pub error: f64,
     /// Faults, one sentence each: sensors swapped, with each other or with a spare input, reversed, or recording something else.
     pub faults: Vec<String>,
 }
 
-/// Responses of all channels; the first are taken for the actuators' sensors.
+/// Responses of all channels, the first of which belong to the actuators' sensors.
 struct Heard<'a> {
     /// `[channel][drive][sample]`, sensors first.
     channels: Vec<&'a [Vec<f64>]>,
@@ -30,9 +30,10 @@ struct Heard<'a> {
 /// Checks the wires of the actuators `names` by reciprocity, without a model. `heard[sensor][drive]` are responses; `spare` are other
 /// inputs by name that recorded the same drives, such as a probe at any place.
 ///
-/// h_ab = h_ba up to one factor for each actuator, the ratio of its gains as drive and as sensor. Sensors that are swapped break this
-/// for all pairs that they are in, an input that records something else likewise; a reversed one shows in the signs. Whether an
-/// output or a sensor is at fault cannot be seen, nor an actuator whose wires are both swapped with another's.
+/// h_ab = h_ba up to one factor for each actuator, the ratio of its gains as drive and as sensor. Swapped
+/// sensors violate this for all their pairs, and so does an input that records something else; a reversed
+/// sensor shows in the signs. It cannot be distinguished whether an output or a sensor is at fault, and an
+/// actuator both of whose wires are swapped with another's is not detected.
 ///
 /// ```
 /// # let noise = |seed: u64| -> Vec<f64> {
@@ -80,7 +81,7 @@ impl Heard<'_> {
         if power > 0.0 { both / power } else { 0.0 }
     }
 
-    /// Error of reciprocity, without one actuator or with all.
+    /// Error of reciprocity over all actuators, or over all but one.
     fn error(&self, rows: &[usize], without: Option<usize>) -> f64 {
         let taken: Vec<usize> = (0..self.actuators).filter(|a| Some(*a) != without).collect();
         let pairs = taken.iter().enumerate().flat_map(|(i, a)| taken[i + 1..].iter().map(move |b| (*a, *b)));

@@ -8,45 +8,48 @@ use unripple_core::Layout;
 /// The result of a wiring test for one output or input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lead {
-    /// The channel's name.
+    /// Name of the channel on the device.
     pub name: String,
-    /// Whether nothing comes through.
+    /// Whether no signal passes through the channel.
     pub silent: bool,
     /// Whether the channel's sign is reversed.
     pub reversed: bool,
-    /// Name of the channel that it is wired to instead of its own; `None` if it is right.
+    /// Name of the channel to which this channel is actually wired; `None` if it is wired correctly or
+    /// silent.
     pub instead: Option<String>,
-    /// Mean correlation, 0 to 1, of the channel's recordings with the model of the channel that it is wired to.
+    /// Mean correlation, 0 to 1, of the channel's recordings with the model of the channel to which it is
+    /// actually wired.
     pub likeness: f64,
-    /// Whether `likeness` is too little for a verdict: less than [`WiringOptions::least_likeness`].
+    /// Whether `likeness` is too small for a verdict: less than [`WiringOptions::least_likeness`].
     pub unlike: bool,
 }
 
 /// The result of a wiring test for all channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WiringReport {
-    /// The outputs, in the device's order.
+    /// Results for the outputs, in the device's order.
     pub outputs: Vec<Lead>,
-    /// The inputs, in the device's order.
+    /// Results for the inputs, in the device's order.
     pub inputs: Vec<Lead>,
-    /// Latency of the round trip, in samples: the model's errors of position and wave speed shift it by a sample or two.
+    /// Latency of the round trip, in samples; the model's errors of position and wave speed may shift it by
+    /// a sample or two.
     pub latency: usize,
 }
 
 impl WiringReport {
-    /// Whether every wire is as it should be.
+    /// Whether the test found no faults.
     pub fn is_right(&self) -> bool {
         self.faults().is_empty()
     }
 
-    /// Faults, one sentence each: silent, swapped and reversed channels. Where an output and the input of its name have the
-    /// same fault it is named once, as the actuator's.
+    /// Faults, one sentence each: silent, swapped and reversed channels. If an output and the input of its
+    /// name have the same fault, it is reported once, as the actuator's.
     pub fn faults(&self) -> Vec<String> {
         self.each().iter().map(Fault::sentence).collect()
     }
 
-    /// The faults in few lines, for display: one that more than three channels have is named once, with their number and the
-    /// first names.
+    /// The faults in few lines, for display: a fault of more than three channels is reported once, with
+    /// their number and the names of the first six.
     pub fn summary(&self) -> Vec<String> {
         let each = self.each();
         let mut lines = Vec::new();
@@ -82,8 +85,8 @@ impl WiringReport {
     }
 }
 
-/// Largest number of channels with the same fault that are named one by one, and (`NAMED`) number of names that are given of
-/// more: a report of a hundred channels stays a few lines long.
+/// Largest number of channels with the same fault that are reported one by one, and (`NAMED`) number of
+/// names that are listed if there are more: a report of a hundred channels stays a few lines long.
 const FEW: usize = 3;
 const NAMED: usize = 6;
 

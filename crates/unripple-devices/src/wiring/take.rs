@@ -5,16 +5,18 @@ use std::f64::consts::TAU;
 use unripple_core::{Device, DeviceError, Layout};
 use unripple_dsp::rms;
 
-/// A channel counts as carrying a signal where it exceeds the noise by this factor (10 dB). With half of it noise alone may pass for a
-/// signal.
+/// Smallest ratio of a channel's level to the noise (10 dB) at which the channel counts as carrying a
+/// signal. With half of it, noise alone may be taken for a signal.
 pub(super) const ABOVE_NOISE: f64 = 3.0;
 
-/// Number of bursts that are averaged where one is hardly louder than the noise, which then is 9 dB less: sweeps, a hundred times longer
-/// than a burst, measure well there. More would take longer than the sweeps.
+/// Number of bursts that are averaged if a single one is hardly louder than the noise; this lowers the noise
+/// by 9 dB. Sweeps, a hundred times longer than a burst, measure well at such levels, so that the wiring has
+/// to be testable there too; more bursts would take longer than the sweeps.
 const AGAIN: usize = 8;
 
-/// Multiple of the noise from which a recording may hold a signal that so many bursts bring out, spread over two of the parts in which it
-/// is looked for. Below it is noise alone, and repeating it would only keep somebody waiting whose cable is not plugged in.
+/// Smallest ratio of a recording's level to the noise at which it may hold a signal that `AGAIN` bursts
+/// would reveal, even if the signal is spread over two of the parts in which it is searched. Below it there
+/// is only noise, and repeating the burst would only delay the report that a cable is not plugged in.
 const PERHAPS: f64 = 1.2;
 
 /// Recordings of every input while each output plays its burst, from the burst's start on.
@@ -24,9 +26,9 @@ pub(super) struct Takes {
     pub(super) inputs: usize,
     /// Recordings, `[output · inputs + input][sample]`, each a mean over its bursts.
     pub(super) heard: Vec<Vec<f64>>,
-    /// Root mean square of the noise in each of them: that of as many recordings of silence.
+    /// Root mean square of the noise in each recording: that of a mean over as many recordings of silence.
     pub(super) noise: Vec<f64>,
-    /// Samples compared with the model.
+    /// Number of samples compared with the model.
     pub(super) window: usize,
     /// Largest latency that is searched, in samples.
     pub(super) most: usize,
@@ -42,7 +44,7 @@ fn burst(options: &WiringOptions, rate: f64) -> Vec<f64> {
     (0..samples).map(at).collect()
 }
 
-/// Plays a burst at each output in turn, and again, several times, where it is hardly louder than the noise.
+/// Plays a burst at each output in turn, and repeats it several times if it is hardly louder than the noise.
 pub(super) fn record(
     device: &mut dyn Device,
     layout: &Layout,
@@ -87,19 +89,19 @@ pub(super) fn record(
     Ok(Takes { outputs, inputs, heard, noise, window, most })
 }
 
-/// A device, and what is played to it: a burst, then silence until it has died away.
+/// A device, and the signal played to it: a burst, then silence until the surface's response has decayed.
 struct Bench<'a> {
     device: &'a mut dyn Device,
     layout: &'a Layout,
-    /// The burst at its level.
+    /// The burst, scaled to its level.
     burst: Vec<f32>,
-    /// Blocks between recordings, and of a recording.
+    /// Number of blocks between recordings, and in a recording.
     pause: usize,
     blocks: usize,
 }
 
 impl Bench<'_> {
-    /// What all inputs hear for some blocks, while the burst is played at one output, or nothing.
+    /// Records all inputs for some blocks, while the burst is played at one output, or nothing.
     fn listen(&mut self, blocks: usize, output: Option<usize>) -> Result<Vec<Vec<f64>>, DeviceError> {
         let block = self.layout.block;
         let (outputs, inputs) = (self.layout.outputs.len(), self.layout.inputs.len());
@@ -120,7 +122,7 @@ impl Bench<'_> {
         Ok(takes)
     }
 
-    /// The mean of so many recordings of all inputs, each followed by silence.
+    /// The mean of `times` recordings of all inputs, each followed by silence.
     fn mean(&mut self, output: Option<usize>, times: usize) -> Result<Vec<Vec<f64>>, DeviceError> {
         let mut sum = vec![vec![0.0; self.blocks * self.layout.block]; self.layout.inputs.len()];
         for _ in 0..times {
@@ -134,7 +136,7 @@ impl Bench<'_> {
     }
 }
 
-/// Recordings of the same bursts, as they follow from measured responses.
+/// Recordings of the bursts that would follow from measured responses.
 pub(super) fn played(heard: &[Vec<Vec<f64>>], layout: &Layout, options: &WiringOptions) -> Takes {
     let samples = |time: f64| (time * layout.rate).ceil() as usize;
     let (window, most) = (samples(options.listen), samples(options.max_latency));
@@ -167,7 +169,7 @@ pub(super) fn level(lines: &mut [Vec<f64>], inputs: usize) {
     }
 }
 
-/// The recordings of the same bursts that a model predicts.
+/// Recordings of the bursts that a model predicts.
 pub(super) fn predict(expected: &Expected, layout: &Layout, options: &WiringOptions) -> Vec<Vec<f64>> {
     let window = (options.listen * layout.rate).ceil() as usize;
     let scale = options.level * layout.full_scale / layout.rate;

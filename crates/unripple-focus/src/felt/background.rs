@@ -1,28 +1,28 @@
-//! Quadratic form of what is felt outside the targets, in the drive's coefficients.
+//! Mean square felt displacement of the surface, as a quadratic form in the drive's spline coefficients.
 
 use super::lines::Lines;
 use realfft::num_complex::Complex;
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply};
 
-/// Values that are held at once while lines are summed, 32 MiB of them. With twice this value, twice the memory and half
-/// the blocks, whose sums differ by rounding.
+/// Number of values in memory at once while frequency lines are summed, 32 MiB of them. With twice this
+/// value, twice the memory and half the blocks, whose sums differ by rounding.
 const VALUES_AT_ONCE: usize = 1 << 22;
 
-/// Motion of the modes under spline signals of the actuators, as spectra.
+/// Spectra of the motion of modes that actuators drive with spline signals.
 #[derive(Clone, Debug)]
 pub(crate) struct Actuation<'a> {
-    /// The lines they are known at.
+    /// The frequency lines at which the spectra are given.
     pub lines: &'a Lines,
-    /// Lines of every spline.
+    /// Spectrum of every spline at the frequency lines.
     pub splines: Vec<Vec<Complex<f64>>>,
-    /// Displacement per drive of every mode, at the lines.
+    /// Displacement per drive of every mode, at the frequency lines.
     pub modes: Vec<Vec<Complex<f64>>>,
     /// Input weights, actuators x modes.
     pub input: Mat<f64>,
 }
 
 impl Actuation<'_> {
-    /// Real and imaginary parts of the lines of the splines, one above the other: 2 lines x splines.
+    /// Real parts of the splines' spectra, above their imaginary parts: 2 lines x splines.
     fn parts(&self) -> Mat<f64> {
         let lines = self.lines.count();
         Mat::from_fn(2 * lines, self.splines.len(), |i, k| {
@@ -30,8 +30,9 @@ impl Actuation<'_> {
         })
     }
 
-    /// Mean over the surface of the integral over all time of the squared weighed displacement, as a form in the
-    /// coefficients (`[actuator][spline]`), in s: by Parseval's theorem a sum over lines.
+    /// Squared threshold-weighted displacement, integrated over all time (in s) and averaged over the
+    /// surface, as a quadratic form in the spline coefficients (`[actuator][spline]`): by Parseval's theorem
+    /// a sum over lines.
     ///
     /// `products` are the means over the surface of the products of any two shapes.
     pub fn background(&self, products: MatRef<'_, f64>) -> Mat<f64> {
@@ -60,8 +61,8 @@ impl Actuation<'_> {
         form
     }
 
-    /// At each line, the mean over the surface of conj(motion by one actuator) · motion by another, weighed:
-    /// `[line][actuator][actuator]`.
+    /// At each line, the mean over the surface of conj(motion by one actuator) · motion by another, times
+    /// the squared threshold weight: `[line][actuator][actuator]`.
     fn powers(&self, products: MatRef<'_, f64>) -> Vec<Complex<f64>> {
         let (ports, modes, lines) = (self.input.nrows(), self.modes.len(), self.lines.count());
         let mut powers = Vec::with_capacity(lines * ports * ports);
@@ -93,7 +94,8 @@ impl Actuation<'_> {
         powers
     }
 
-    /// Phases of the lines at samples of the drive's clock, for [`Actuation::motion`]: samples x 2 lines.
+    /// Cosines and negative sines of the phase of each frequency line at some samples of the drive, for
+    /// [`Actuation::motion`]: samples x 2 lines.
     pub fn phases(&self, samples: &[i64]) -> Mat<f64> {
         let lines = self.lines.count();
         Mat::from_fn(samples.len(), 2 * lines, |t, i| {
@@ -102,7 +104,8 @@ impl Actuation<'_> {
         })
     }
 
-    /// Weighed displacement of one mode per spline at unit force, at the samples of `phases`: samples x splines.
+    /// Threshold-weighted displacement of one mode for each spline as the modal force, at the samples of
+    /// `phases`: samples x splines.
     pub fn motion(&self, mode: usize, phases: &Mat<f64>) -> Mat<f64> {
         let lines = self.lines.count();
         let turned = Mat::from_fn(2 * lines, self.splines.len(), |i, k| {
@@ -117,7 +120,7 @@ impl Actuation<'_> {
     }
 }
 
-/// The sum Σ a·b over entries, as far as the shorter goes.
+/// The sum Σ a·b over the length of the shorter slice.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     // Eight sums side by side, which a compiler may keep in one register.
     let mut sums = [0.0; 8];

@@ -1,4 +1,4 @@
-//! Control points where what is felt outside is bounded.
+//! Control points at which the felt displacement outside the targets is bounded.
 
 use super::reduced::Reduced;
 use unripple_core::{Outline, Point};
@@ -12,16 +12,17 @@ const AT_ONCE: usize = 1024;
 /// lattice near targets and actuators has four times the points.
 const COARSE: usize = 3;
 
-/// Points at which what is felt is looked at, on a lattice over the outline's bounding box.
+/// Control points at which the felt displacement is evaluated, on a lattice over the outline's bounding box.
 #[derive(Clone, Debug)]
 pub(crate) struct Control {
-    /// The points, within the outline.
+    /// The lattice points within the outline.
     pub points: Vec<Point>,
-    /// Shape weights of the modes that are looked at, and springs, (modes and springs) x points.
+    /// Mode shapes at the points, then the static deflections (springs) per actuator of all higher modes:
+    /// (modes and springs) x points.
     pub shapes: Mat<f32>,
-    /// Distance between points, in metres.
+    /// Distance between neighbouring points of the fine lattice, in metres.
     pub pitch: f64,
-    /// Whether each point is looked at wherever the targets are.
+    /// Whether each point is evaluated wherever the targets are; the others only near targets.
     coarse: Vec<bool>,
 }
 
@@ -34,7 +35,8 @@ pub(crate) struct Lattice {
 }
 
 impl Lattice {
-    /// A coarse lattice of at most `pitch` metres, and at least 8 points along the shorter side.
+    /// A lattice whose coarse points are at most `pitch` metres apart, at least 8 of them along the shorter
+    /// side.
     pub fn new(outline: &Outline, pitch: f64) -> Self {
         let (width, height) = outline.extent();
         let pitch = pitch.min(width.min(height) / 8.0) / COARSE as f64;
@@ -42,12 +44,12 @@ impl Lattice {
         Self { cells, pitch }
     }
 
-    /// Number of points, those outside the outline included.
+    /// Number of lattice points, including those outside the outline.
     pub fn count(&self) -> usize {
         self.cells[0].saturating_mul(self.cells[1])
     }
 
-    /// The points within the outline, and whether they are of the coarse lattice.
+    /// The points within the outline, and whether each belongs to the coarse lattice.
     fn points(&self, outline: &Outline) -> (Vec<Point>, Vec<bool>) {
         let (width, height) = outline.extent();
         let place = |cell: usize, side: f64, cells: usize| (cell as f64 + 0.5) * side / cells as f64;
@@ -62,8 +64,8 @@ impl Lattice {
 }
 
 impl Control {
-    /// Reads the shapes that are `watched` on the lattice, and the means over the surface of the products of
-    /// any two that are `heard`, modes x modes.
+    /// Evaluates the mode shapes of `watched` at the control points, and the mean over the surface of the
+    /// product of each two mode shapes of `heard`, modes x modes.
     pub fn read(
         outline: &Outline,
         lattice: Lattice,
@@ -89,13 +91,13 @@ impl Control {
         (Self { points, shapes, pitch: lattice.pitch, coarse }, products)
     }
 
-    /// Distance between points of the coarse lattice, in metres.
+    /// Distance between neighbouring points of the coarse lattice, in metres.
     pub fn coarse_pitch(&self) -> f64 {
         self.pitch * COARSE as f64
     }
 
-    /// Indices of the points farther than `radius` (m) from all of `targets`: those of the coarse lattice, and of the
-    /// fine lattice all that are farther by at most its pitch.
+    /// Indices of the control points farther than `radius` (m) from all `targets`: all such points of the
+    /// coarse lattice, and those of the fine lattice that are within one pitch of this radius.
     pub fn outside(&self, targets: &[Point], radius: f64) -> Vec<usize> {
         let nearest = |p: &Point| targets.iter().map(|t| t.distance(*p)).fold(f64::INFINITY, f64::min);
         let apart = |i: &usize| {

@@ -1,4 +1,4 @@
-//! Frequency lines up to the top of what is felt.
+//! Lines (frequency bins) of a Fourier transform, up to the highest frequency that is felt.
 
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
@@ -6,23 +6,23 @@ use std::sync::Arc;
 use unripple_core::Pole;
 use unripple_dsp::Threshold;
 
-/// What is felt at a frequency this far below what is felt best does not count: 40 dB. Doubled (46 dB), lines
-/// reach to higher frequencies, and plans take longer.
+/// Frequencies whose threshold is more than this factor (40 dB) above the lowest threshold do not count as
+/// felt. Doubled (46 dB), lines reach to higher frequencies, and plans take longer.
 const UNFELT: f64 = 100.0;
 
-/// Frequencies looked at for the top of what is felt, evenly in the logarithm over four decades: 0.5 % apart.
-/// With twice this value, the top is found twice as closely.
+/// Number of frequencies at which the threshold is evaluated to find the highest one felt, evenly in the
+/// logarithm over four decades: 0.5 % apart. With twice this value, it is found twice as closely.
 const LOOKED_AT: i32 = 2000;
 
-/// Nepers by which oscillations have died out where the transform wraps around: to 1/55. With twice this value, to 1/3000,
-/// for a transform up to twice as long.
+/// Decay, in nepers, of oscillations by the end of the transform, where it wraps around: to 1/55. With twice
+/// this value, to 1/3000, for a transform up to twice as long.
 const DIED_OUT: f64 = 4.0;
 
 /// Largest number of samples of the transform beyond what the drive itself needs: modes that ring longer are made to decay
 /// faster. With twice this value, transforms may be twice as long.
 const MOST_DECAY: usize = 1 << 16;
 
-/// The highest frequency, in Hz, that is felt at less than 40 dB below the best one; at most `limit`.
+/// The highest frequency, in Hz, whose threshold is less than 40 dB above the lowest one; at most `limit`.
 pub(crate) fn felt_top(threshold: &Threshold, limit: f64) -> f64 {
     let hz = |i: i32| limit * 1e-4_f64.powf(1.0 - f64::from(i) / f64::from(LOOKED_AT));
     let all = || (0..=LOOKED_AT).map(hz);
@@ -30,16 +30,17 @@ pub(crate) fn felt_top(threshold: &Threshold, limit: f64) -> f64 {
     all().filter(|f| threshold.at(*f) <= UNFELT * least).fold(0.0, f64::max)
 }
 
-/// The lines of a Fourier transform up to the top of what is felt.
+/// The lines (frequency bins) of a Fourier transform, up to the highest frequency that is felt.
 #[derive(Clone)]
 pub(crate) struct Lines {
     /// Samples per second.
     pub rate: f64,
-    /// Samples of the transform.
+    /// Length of the transform, in samples.
     pub size: usize,
-    /// 1/threshold at each line.
+    /// Inverse of the detection threshold at each line, in 1/m.
     pub gains: Vec<f64>,
-    /// Samples during which responses are exact; afterwards those that hardly decay are made to.
+    /// Number of samples over which responses are exact; afterwards those that hardly decay are made to
+    /// decay faster.
     exact: usize,
     transform: Arc<dyn RealToComplex<f64>>,
 }
@@ -51,7 +52,7 @@ impl std::fmt::Debug for Lines {
 }
 
 impl Lines {
-    /// Lines fine enough for a window of `window` samples and for what decays with these poles.
+    /// Lines up to `top` (Hz), fine enough for a drive of `window` samples and the decay of these poles.
     pub fn new(threshold: &Threshold, rate: f64, window: usize, poles: &[Pole], top: f64) -> Self {
         let [size, count] = Self::sizes(rate, window, poles, top);
         let gains = (0..count).map(|k| 1.0 / threshold.at(k as f64 * rate / size as f64)).collect();
@@ -59,7 +60,8 @@ impl Lines {
         Self { rate, size, gains, exact: 2 * window, transform }
     }
 
-    /// Samples of the transform, and number of its lines from 0 Hz to the top, of [`Lines::new`] with the same arguments.
+    /// Length of the transform in samples, and number of its lines from 0 Hz to `top`, that [`Lines::new`]
+    /// uses for these arguments.
     pub fn sizes(rate: f64, window: usize, poles: &[Pole], top: f64) -> [usize; 2] {
         let slowest = poles.iter().map(slowest_decay).fold(f64::INFINITY, f64::min);
         let decay = (DIED_OUT * rate / slowest.max(f64::MIN_POSITIVE)).min(MOST_DECAY as f64) as usize;
@@ -67,23 +69,23 @@ impl Lines {
         [size, ((top * size as f64 / rate) as usize + 1).min(size / 2)]
     }
 
-    /// Number of lines, from 0 Hz to the top.
+    /// Number of lines, from 0 Hz to the highest frequency felt.
     pub fn count(&self) -> usize {
         self.gains.len()
     }
 
-    /// The factor by which each line counts in a signal: x[i] = Σ share · Re(X e^{jωi}).
+    /// The factor on a line X in the inverse transform: x[i] = Σ share · Re(X e^{jωi}).
     pub fn share(&self, line: usize) -> f64 {
         if line == 0 { 1.0 / self.size as f64 } else { 2.0 / self.size as f64 }
     }
 
-    /// Phase of a line at a sample, in radians.
+    /// Phase of a line's oscillation at a sample, in radians.
     pub fn phase(&self, line: usize, sample: i64) -> f64 {
         let turns = (line as i64 * sample).rem_euclid(self.size as i64);
         std::f64::consts::TAU * turns as f64 / self.size as f64
     }
 
-    /// The lines of a signal that starts at sample 0.
+    /// Fourier transform, at the lines, of a signal that starts at sample 0.
     pub fn of(&self, signal: &[f64]) -> Vec<Complex<f64>> {
         let mut padded = self.transform.make_input_vec();
         let length = signal.len().min(self.size);
@@ -95,7 +97,8 @@ impl Lines {
         lines
     }
 
-    /// Displacement per drive of an oscillation: the lines of its response, times the time between samples.
+    /// Transfer function, at the lines, from drive to displacement of one oscillation: the transform of its
+    /// impulse response, times the sample interval.
     pub fn of_pole(&self, pole: Pole) -> Vec<Complex<f64>> {
         let wanted = DIED_OUT * self.rate / (self.size - self.exact) as f64;
         let more = (wanted - slowest_decay(&pole)).max(0.0) / self.rate;
@@ -107,7 +110,7 @@ impl Lines {
     }
 }
 
-/// Decay rate of the slower part of a mode, in 1/s.
+/// Decay rate of the slower of a mode's two exponentials, in 1/s.
 fn slowest_decay(pole: &Pole) -> f64 {
     let square = (pole.sigma - pole.omega) * (pole.sigma + pole.omega);
     pole.sigma - square.max(0.0).sqrt()

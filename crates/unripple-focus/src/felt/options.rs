@@ -1,4 +1,4 @@
-//! Weights of the method that keeps down what is felt elsewhere.
+//! Options of the method that minimises what is felt outside the targets.
 
 use crate::FocusError;
 use unripple_core::require;
@@ -17,8 +17,9 @@ pub struct FeltOptions {
     pub limit: f64,
     /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole.
     pub rms_limit: Option<f64>,
-    /// Balance between the mean square of what is felt outside the targets (0) and the square of its largest value (1).
-    /// The latter is much the larger, so that a small weight is enough.
+    /// Weight, 0 to 1, between the two terms that are minimised: the mean square (0) and the square of the
+    /// largest value (1) of what is felt outside the targets. The latter is much larger, so that a small
+    /// weight is enough.
     pub worst: f64,
     /// Weight of the drive's energy, dimensionless, 1e-6 to 1e6. At 1, for a drive of random samples, the term of
     /// energy is about as large as that of the mean square felt; for an optimised drive the latter is much smaller.
@@ -44,7 +45,7 @@ impl Default for FeltOptions {
 }
 
 impl FeltOptions {
-    /// Refuses options out of their range.
+    /// Checks that all options are in their ranges.
     pub(crate) fn check(&self) -> Result<(), FocusError> {
         let positive = |x: f64| x.is_finite() && x > 0.0;
         require("window (s)", positive(self.window), "a positive number", self.window)?;

@@ -15,19 +15,21 @@ use std::f64::consts::{PI, TAU};
 use unripple_core::{Drive, ModalResponses, OutOfRange, Point, Responses, require, window_samples};
 use unripple_linalg::{Cholesky, Mat, MatRef, product, solve_lower};
 
-/// Largest number of coefficients of a drive, over all actuators: their form is a square matrix, half a GiB at this size.
-/// With twice this value, it takes four times the memory and eight times the time.
+/// Largest number of spline coefficients of a drive, over all actuators: the quadratic form in them is a
+/// square matrix, half a GiB at this size. With twice this value, it takes four times the memory and eight
+/// times the time.
 const MOST_COEFFICIENTS: usize = 8000;
 
 /// Largest number of values of a plan, up to a GiB of them. With twice this value, a plan may take twice that.
 const MOST_VALUES: usize = 1 << 27;
 
-/// Modes below this multiple of the highest frequency felt are computed one by one, all others as static flexibility.
-/// With twice this value, more modes are computed for motion that the flexibility gives already.
+/// Modes below this multiple of the highest frequency felt are computed individually, all others as static
+/// flexibility. With twice this value, more modes are computed although the flexibility is accurate enough.
 const HEARD: f64 = 2.0;
 
-/// Likewise for the search for the worst spot, where fewer modes are taken for speed: the error is within the tolerance
-/// of that search. With twice this value, more modes are taken, for memory in proportion.
+/// The same multiple in the search for the largest felt displacement, where fewer modes are used for speed:
+/// the error is within the tolerance of that search. With twice this value, more modes are taken, for memory
+/// in proportion.
 const WATCHED: f64 = 0.8;
 
 /// A shape weight below this share of the largest is rounding error, not motion. Larger, targets close to a
@@ -55,7 +57,8 @@ pub struct FeltPlan<'r> {
     options: FeltOptions,
     focal: usize,
     splines: Splines,
-    /// Lower triangular factor of the form without W, in spline coefficients `[actuator][spline]`.
+    /// Lower triangular Cholesky factor of the quadratic form without W, in spline coefficients
+    /// `[actuator][spline]`.
     factor: Mat<f64>,
     /// What is felt of each mode at the focal instant, per whitened coefficient: coefficients x modes.
     level: Mat<f64>,
@@ -73,15 +76,16 @@ struct Sizes {
     /// Highest frequency that counts as felt, in Hz.
     top: f64,
     splines: Splines,
-    /// Modes that matter for what is felt.
+    /// Number of modes that matter for what is felt.
     heard: usize,
-    /// Modes that are looked at for the worst spot.
+    /// Number of modes used in the search for the largest felt displacement.
     watched: usize,
     lattice: Lattice,
 }
 
 impl<'r> FeltPlan<'r> {
-    /// Prepares the window and the weights of `options` for a surface with these responses.
+    /// Prepares the computation of drives for a surface with these responses and for the window and weights
+    /// of `options`.
     ///
     /// # Errors
     /// [`FocusError::Range`] for options out of range, [`FocusError::NeedsModes`] for sampled responses,
@@ -121,16 +125,17 @@ impl<'r> FeltPlan<'r> {
         Ok(Self { responses, heard, options, focal, splines, factor, level, control, watch, usual })
     }
 
-    /// The drive that is felt at these targets and least elsewhere, scaled to the limits.
+    /// Computes the drive that is felt at these targets and as little as possible elsewhere, scaled to the
+    /// limits.
     ///
     /// What is felt at target k at the focal instant, averaged over its points, is its gain times a level common to all
     /// targets, which the limits set. A gain of 0 imposes silence there at that instant. Repeated targets are refused.
     ///
     /// # Errors
     /// [`FocusError::Outside`] and [`FocusError::Still`] for targets that cannot be reached,
-    /// [`FocusError::Inseparable`] for targets too close to have levels of their own, [`FocusError::Range`] for
-    /// repeated targets and for numbers out of range, [`FocusError::Count`] for no target, a target without points, or
-    /// too many points.
+    /// [`FocusError::Inseparable`] for targets too close to each other for different levels,
+    /// [`FocusError::Range`] for repeated targets and for numbers out of range, [`FocusError::Count`] for no
+    /// target, a target without points, or too many points.
     pub fn focus(&self, targets: &[Target]) -> Result<Focused, FocusError> {
         let channels = self.limited(self.channels(&self.coefficients(targets)?))?;
         let names = self.responses.ports.iter().map(|port| port.name.clone()).collect();
@@ -144,7 +149,7 @@ impl<'r> FeltPlan<'r> {
         })
     }
 
-    /// The drive before limits, in spline coefficients `[actuator][spline]`.
+    /// The drive before it is scaled to the limits, as spline coefficients `[actuator][spline]`.
     fn coefficients(&self, targets: &[Target]) -> Result<Vec<f64>, FocusError> {
         Target::check(targets, &self.responses.conditions.outline)?;
         let rows = targets.iter().enumerate().map(|(k, target)| self.felt_at(k, target));
@@ -188,7 +193,7 @@ impl<'r> FeltPlan<'r> {
         Ok(product(self.level.as_ref(), mean.as_ref()).col_as_slice(0).to_vec())
     }
 
-    /// Brings the drive to the limits: its peak to `limit`, then its largest rms down to `rms_limit`.
+    /// Scales the drive so that its peak equals `limit`, then down if a channel's rms exceeds `rms_limit`.
     fn limited(&self, mut channels: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, FocusError> {
         let peak = channels.iter().map(|channel| peak(channel)).fold(0.0, f64::max);
         let usable = peak.is_finite() && peak > 0.0;
@@ -204,7 +209,7 @@ impl<'r> FeltPlan<'r> {
     }
 }
 
-/// Sizes of a plan, refused before anything of them is allocated.
+/// Computes the sizes of a plan, and refuses too large ones before anything is allocated.
 fn sizes(responses: &ModalResponses, options: &FeltOptions) -> Result<Sizes, FocusError> {
     let conditions = &responses.conditions;
     let count =
@@ -258,7 +263,8 @@ fn sizes(responses: &ModalResponses, options: &FeltOptions) -> Result<Sizes, Foc
     Ok(Sizes { window, top, splines, heard, watched, lattice })
 }
 
-/// The lower triangular factor of the form without the worst spot.
+/// The lower triangular Cholesky factor of the quadratic form, without the term of the largest felt
+/// displacement.
 fn factor(
     mut form: Mat<f64>,
     splines: Splines,

@@ -1,26 +1,29 @@
-//! A reduced model: low modes one by one, high ones as static flexibility.
+//! A reduced model of a surface: low modes individually, high modes as static flexibility.
 
 use super::lines::Lines;
 use realfft::num_complex::Complex;
 use unripple_core::{ModalResponses, Onset, Point, Pole, Port};
 use unripple_linalg::{Accum, Mat, Par, multiply};
 
-/// Reduced model of a surface: the first modes one by one, and all others as springs, that is, as static flexibility.
+/// Reduced model of a surface: the first modes individually, and all others as springs, that is, as static
+/// flexibility.
 ///
-/// Far below their natural frequencies the other modes follow the drive without delay: u = Σ_a spring_a(x) · d_a with
-/// spring_a(x) = Σ_m input[a, m] shape_m(x) / ω_m² (residual flexibility). This is little, except close to an actuator.
-/// Springs come after the modes, as columns of their own.
+/// Far below their natural frequencies the other modes follow the drive without delay: u = Σ_a spring_a(x) ·
+/// d_a with spring_a(x) = Σ_m input[a, m] shape_m(x) / ω_m² (residual flexibility). This is little, except
+/// close to an actuator. There is one spring per actuator; springs come after the modes, as additional
+/// columns.
 #[derive(Clone, Debug)]
 pub(crate) struct Reduced<'r> {
     responses: &'r ModalResponses,
-    /// Number of modes kept one by one.
+    /// Number of modes that are represented individually.
     pub kept: usize,
-    /// Static displacement of each of the other modes per drive, modes x actuators.
+    /// Static displacement per drive of each mode that is not represented individually, modes x actuators.
     yields: Mat<f64>,
 }
 
 impl<'r> Reduced<'r> {
-    /// The first `kept` (a number) modes and the springs of the others: static residual flexibility.
+    /// Keeps the first `kept` modes (a number) individually, and replaces the others by their static
+    /// (residual) flexibility.
     pub fn new(responses: &'r ModalResponses, kept: usize) -> Self {
         let others = &responses.poles[kept..];
         let yields = Mat::from_fn(others.len(), responses.ports.len(), |m, a| {
@@ -34,12 +37,12 @@ impl<'r> Reduced<'r> {
         &self.responses.ports
     }
 
-    /// Number of modes and springs.
+    /// Number of individual modes plus number of springs (one per actuator).
     pub fn count(&self) -> usize {
         self.kept + self.yields.ncols()
     }
 
-    /// Shape weights and springs at points, points x (modes and springs).
+    /// Mode shapes, then static deflections of the springs, at points: points x (modes and springs).
     pub fn at_all(&self, points: &[Point]) -> Mat<f64> {
         let all = self.responses.shapes.at_all(points);
         let mut shapes = Mat::zeros(points.len(), self.count());
@@ -50,7 +53,7 @@ impl<'r> Reduced<'r> {
         shapes
     }
 
-    /// Input weights, actuators x (modes and springs).
+    /// Input weights of the actuators, actuators x (modes and springs).
     pub fn input(&self) -> Mat<f64> {
         Mat::from_fn(self.yields.ncols(), self.count(), |a, m| match m {
             m if m < self.kept => self.responses.input[(a, m)],
@@ -59,7 +62,7 @@ impl<'r> Reduced<'r> {
         })
     }
 
-    /// Displacement per drive of modes and springs, each at the lines: (modes and springs) x lines.
+    /// Displacement per drive of each mode and spring at the frequency lines: (modes and springs) x lines.
     pub fn lines(&self, lines: &Lines) -> Vec<Vec<Complex<f64>>> {
         let modes = self.responses.poles[..self.kept].iter().map(|pole| lines.of_pole(*pole));
         let springs = (0..self.yields.ncols()).map(|_| vec![Complex::new(1.0, 0.0); lines.count()]);
@@ -67,7 +70,7 @@ impl<'r> Reduced<'r> {
     }
 }
 
-/// Displacement under a steady drive: the integral of the response.
+/// Displacement of a mode under a constant unit drive: the integral of its impulse response.
 fn compliance(pole: Pole) -> f64 {
     let yields = match pole.onset {
         Onset::Velocity => pole.omega.powi(-2),

@@ -6,38 +6,39 @@ use super::watch::{Sample, Watch};
 use crate::FocusError;
 use unripple_linalg::{Mat, MatRef, non_negative, solve_upper_alone};
 
-/// By how much of the ceiling the worst spot may still be above it: 0.26 dB. Halved, about one more round
-/// finds what is left.
+/// Tolerance, as a share of the ceiling, by which the largest felt displacement may exceed it: 0.26 dB.
+/// Halved, about one more round is needed.
 const SLACK: f64 = 0.03;
 
-/// Rounds of looking for spots above the ceiling; some five are enough. With twice this value, what does not converge takes
-/// twice as long.
+/// Largest number of rounds of the search for displacements above the ceiling; some five are enough. With
+/// twice this value, a search that does not converge takes twice as long.
 const ROUNDS: usize = 40;
 
-/// At first, maxima above this share of the worst one are held down. Nearer to 1, fewer at once and more
-/// rounds.
+/// In the first round, maxima above this share of the largest one are bounded. Nearer to 1, fewer are
+/// bounded at once and more rounds are needed.
 const FIRST: f64 = 0.6;
 
-/// Rounding that keeps samples next to each other apart, as a share of the mean square of a row. Larger, what
-/// is felt there would stay above the ceiling.
+/// Regularisation that keeps the equations of neighbouring samples solvable, as a share of the mean square
+/// of a row. Larger, the felt displacement there would stay above the ceiling.
 const ROUNDING: f64 = 1e-9;
 
-/// A target of which less than this share of its squared level is its own cannot be told from the others: 60
-/// dB. Larger, targets would be refused that take much drive but can be reached.
+/// A target is inseparable from the others if less than this share (-60 dB) of its squared level is
+/// independent of theirs. Larger, targets would be refused that take much drive but can be reached.
 const OWN: f64 = 1e-6;
 
-/// Levels that are held, in whitened coefficients z: the least |z|² that has them, and directions that would change them.
+/// Prescribed levels as constraints on whitened coefficients z: the z of least |z|² that has the levels, and
+/// the directions of z that would change them.
 #[derive(Clone, Debug)]
 pub(crate) struct Held {
-    /// The least z with the levels asked for.
+    /// The z of least |z|² with the levels requested.
     least: Vec<f64>,
     /// Orthonormal directions that change levels.
     directions: Vec<Vec<f64>>,
 }
 
 impl Held {
-    /// From how each level depends on z (a row of coefficients each), and the levels: Gram-Schmidt
-    /// orthogonalisation, twice over.
+    /// Solves for the least z with these levels by Gram-Schmidt orthogonalisation, done twice for accuracy.
+    /// Row k of `rows` holds the change of level k per whitened coefficient.
     ///
     /// # Errors
     /// [`FocusError::Inseparable`].
@@ -63,7 +64,7 @@ impl Held {
         Ok(held)
     }
 
-    /// Removes from `row` what would change a level.
+    /// Removes from `row` the components that would change a level.
     fn clear(&self, row: &mut [f64]) {
         for direction in &self.directions {
             let share = dot(direction, row);
@@ -72,26 +73,29 @@ impl Held {
     }
 }
 
-/// The quadratic programme of one drive: least |z|² + worst · s² with the levels held and nothing felt above s outside.
+/// The quadratic programme of one drive: least |z|² + worst · s² with the levels fixed and no felt
+/// displacement above s outside the targets.
 #[derive(Debug)]
 pub(crate) struct Programme<'a> {
-    /// What is felt, around the focal instant.
+    /// Felt displacement around the focal instant, per coefficient of the drive.
     pub watch: &'a Watch,
-    /// Where it is looked at.
+    /// Control points at which the felt displacement is evaluated.
     pub control: &'a Control,
-    /// Lower triangular factor L of the form that |z|² stands for: coefficients are L⁻ᵀz.
+    /// Lower triangular Cholesky factor L of the cost of the spline coefficients c: whitened coefficients z
+    /// give c = L⁻ᵀz and the cost |z|².
     pub factor: MatRef<'a, f64>,
-    /// Weight of the worst spot.
+    /// Weight of the largest felt displacement outside the targets, squared, in the cost.
     pub worst: f64,
 }
 
-/// Samples that are held below the ceiling so far.
+/// Samples in space and time that have been bounded by the ceiling so far.
 #[derive(Debug, Default)]
 struct Bounds {
     samples: Vec<Sample>,
-    /// What is felt there per whitened coefficient, cleared of what would change a level.
+    /// Felt displacement at each sample per whitened coefficient, without components that would change a
+    /// level.
     rows: Vec<Vec<f64>>,
-    /// What is felt there at the least z.
+    /// Felt displacement at each sample for the least z.
     slope: Vec<f64>,
     /// Products of rows, the lower triangle.
     products: Vec<Vec<f64>>,
@@ -99,7 +103,8 @@ struct Bounds {
 }
 
 impl Programme<'_> {
-    /// The coefficients of the drive that is best, with the worst spot looked for at `chosen` control points.
+    /// Spline coefficients of the optimal drive; the largest felt displacement is searched for at the
+    /// control points with the indices `chosen`.
     ///
     /// Cutting planes: maxima of what is felt that rise above the ceiling s are bounded, and the programme with all bounds so
     /// far is solved through its dual, one multiplier λ ≥ 0 per bound, s = Σλ / worst and z = least − Σλ·row. The
@@ -144,7 +149,7 @@ impl Programme<'_> {
 }
 
 impl Bounds {
-    /// Bounds one sample more.
+    /// Adds a bound on one more sample.
     fn add(&mut self, sample: Sample, mut row: Vec<f64>, held: &Held) {
         self.slope.push(dot(&row, &held.least));
         held.clear(&mut row);

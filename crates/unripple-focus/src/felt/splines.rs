@@ -3,12 +3,13 @@
 use std::ops::Range;
 use unripple_linalg::Mat;
 
-/// Cubic B-splines with equally spaced knots, the first at sample 0, cut off outside the samples of the drive.
+/// Cubic B-splines with equally spaced knots, the first knot at sample 0, truncated to the samples of the
+/// drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Splines {
-    /// Samples between knots.
+    /// Distance between knots, in samples.
     pub step: usize,
-    /// Samples of the drive.
+    /// Number of samples of the drive.
     pub samples: usize,
 }
 
@@ -35,14 +36,15 @@ impl Splines {
         }
     }
 
-    /// One spline, at the samples of the drive.
+    /// The values of one spline at all samples of the drive.
     pub fn signal(self, knot: usize) -> Vec<f64> {
         let mut signal = vec![0.0; self.samples];
         self.support(knot).for_each(|i| signal[i] = self.value(knot, i));
         signal
     }
 
-    /// Sum of the splines times these coefficients, one number per sample of the drive.
+    /// Signal that is the sum of all splines, each times its coefficient: one number per sample of the
+    /// drive.
     pub fn sum(self, coefficients: &[f64]) -> Vec<f64> {
         let mut signal = vec![0.0; self.samples];
         for (knot, c) in coefficients.iter().enumerate() {

@@ -4,45 +4,47 @@ use super::background::Actuation;
 use super::control::Control;
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, solve_lower};
 
-/// Of neighbouring maxima of one sign, only the largest is taken at once: within this many periods of the top
-/// of what is felt, and this many points of the coarse lattice. With twice this value, fewer bounds at once and more
-/// rounds.
+/// Of neighbouring maxima of one sign, only the largest is taken at once. Neighbouring means within this
+/// many periods of the highest frequency felt, and this many points of the coarse lattice. With twice these
+/// values, there are fewer bounds at once and more rounds.
 const APART: [f64; 2] = [0.85, 1.5];
 
-/// Most maxima that are taken at once: each is a row of the dual problem. With twice this value, rounds are fewer and
-/// problems larger.
+/// Largest number of maxima that are taken at once: each is a row of the dual problem. With twice this
+/// value, rounds are fewer and problems larger.
 const AT_ONCE: usize = 24;
 
-/// Where and when what is felt is looked at: one point of the control lattice at one of the times, and its sign.
+/// A point in space and time at which the felt displacement is bounded: a control point, a time, and the
+/// sign of the displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sample {
     /// Index of the control point.
     pub point: usize,
-    /// Index among the times.
+    /// Index of the time in the list `times` of [`Watch`].
     pub time: usize,
-    /// The sign of what is felt there, 1 or -1.
+    /// Sign of the felt displacement there, 1 or -1.
     pub sign: f64,
 }
 
-/// What is felt at the control points around the focal instant.
+/// Felt displacement at the control points at times around the focal instant, as a linear function of the
+/// drive.
 #[derive(Clone, Debug)]
 pub(crate) struct Watch {
-    /// Samples from the focal instant.
+    /// Times of evaluation, in samples from the focal instant.
     pub times: Vec<i64>,
-    /// Samples within which neighbouring maxima are one.
+    /// Time, in samples, within which only the largest of neighbouring maxima is taken.
     apart: f64,
     splines: usize,
     /// Input weights, actuators x modes.
     input: Mat<f64>,
-    /// Weighed displacement per spline at unit force, `[mode][spline][time]`.
+    /// Threshold-weighted displacement for each spline as the modal force, `[mode][spline][time]`.
     motion: Vec<f32>,
-    /// Weighed displacement of every mode per whitened coefficient, `[time][mode][coefficient]`.
+    /// Threshold-weighted displacement of every mode per whitened coefficient, `[time][mode][coefficient]`.
     rows: Vec<f32>,
 }
 
 impl Watch {
-    /// Times around the focus, in samples: close ones near it, half as many farther out. `rate` in samples per second, `top`
-    /// the highest frequency felt.
+    /// Times of evaluation, in samples from the focal instant: closely spaced near it, twice as far apart
+    /// farther out. `rate` is in samples per second, `top` the highest frequency felt (Hz).
     pub fn times(rate: f64, top: f64) -> Vec<i64> {
         let step = (rate / (3.0 * top)).round().max(1.0) as i64;
         let (near, far) = (12, 42);
@@ -96,7 +98,7 @@ impl Watch {
         field
     }
 
-    /// What is felt at a sample per whitened coefficient, positive where the field is.
+    /// Felt displacement at a sample per whitened coefficient, multiplied by the sample's sign.
     pub fn row(&self, control: &Control, sample: Sample) -> Vec<f64> {
         let shapes = control.shapes.col_as_slice(sample.point);
         let count = self.rows.len() / (self.times.len() * self.input.ncols());
@@ -108,9 +110,9 @@ impl Watch {
         row.iter().map(|x| sample.sign * f64::from(*x)).collect()
     }
 
-    /// The largest magnitude of a field (times x points, in units of the threshold), and its maxima above
-    /// `least(largest)` that are not yet known, the largest first. Columns of the field belong to `chosen`
-    /// points.
+    /// The largest magnitude of a field (times x points, in units of the threshold), and those of its maxima
+    /// above `least(largest)` that are not among `known`, the largest first. Columns of the field belong to
+    /// `chosen` points.
     pub fn peaks(
         &self,
         field: &Mat<f32>,

@@ -15,22 +15,24 @@ use std::borrow::Cow;
 use unripple_core::{Point, require};
 use unripple_linalg::{Mat, MatRef, product, symmetric};
 
-/// Directions of the drive that move the surface less than this share of the strongest are left alone, in
-/// energy: rounding of the Gram matrix. Larger, weak directions that can be driven would be lost.
+/// Directions of the drive whose energy in the surface is less than this share of the strongest are not
+/// used: they are rounding of the Gram matrix. Larger, weak directions that can be driven would be lost.
 const FAINT: f64 = 1e-13;
 
 /// Largest number of coordinates of a state: decompositions take the cube of it. With twice this value, four times the memory and eight
 /// times the time.
 const MOST_COORDINATES: usize = 4000;
 
-/// A surface under a drive over one window or period: the coordinates of its velocity at the focal instant.
+/// Linear model of a surface driven over one window or period: its state is made of the coordinates of its
+/// velocity at the focal instant.
 #[derive(Debug)]
 pub(crate) enum Plant<'r> {
-    /// A state of the velocities of modes.
+    /// A state whose coordinates are the velocities of modes.
     Modal(Box<ModalPlant<'r>>),
-    /// A state of the velocities of independent shapes, where the modes' own shapes are linearly dependent.
+    /// A state whose coordinates are the velocities of linearly independent shapes, if the mode shapes are
+    /// dependent.
     Reduced(Box<ReducedPlant<'r>>),
-    /// A state of the velocities at stored points, of sampled responses.
+    /// A state whose coordinates are the velocities at the stored points of sampled responses.
     Sampled(SampledPlant<'r>),
 }
 
@@ -60,7 +62,7 @@ impl Plant<'_> {
         }
     }
 
-    /// Adds `Gᵀ z` to the channels, a row of `length` samples each.
+    /// Adds the drive `Gᵀ z` to the channels, each a row of samples.
     fn emit(&self, z: &[f64], channels: &mut [f64]) -> Result<(), FocusError> {
         match self {
             Self::Modal(modal) => modal.emit(z, channels),
@@ -75,7 +77,8 @@ impl Plant<'_> {
         }
     }
 
-    /// Weights that read the velocity at points, coordinates x points, and the points that stand for them.
+    /// Weights that give the velocity at points from the state, coordinates x points, and the points used:
+    /// those requested, or the nearest stored ones.
     fn readout(&self, target: usize, points: &[Point]) -> Result<(Mat<f64>, Vec<Point>), FocusError> {
         match self {
             Self::Modal(modal) => Ok((modal.readout(points), points.to_vec())),
@@ -84,7 +87,8 @@ impl Plant<'_> {
         }
     }
 
-    /// Weights that read the velocity all over the surface, coordinates x cells, and where the cells are.
+    /// Weights that give the velocity at cells all over the surface from the state, coordinates x cells, and
+    /// the cells' places.
     fn cells(&self) -> (Mat<f64>, Vec<Point>) {
         match self {
             Self::Modal(modal) => modal.cells(),
@@ -94,7 +98,7 @@ impl Plant<'_> {
     }
 }
 
-/// Drives of least energy, in coordinates of unit energy.
+/// Drives of least energy, as linear functions of a state with coordinates of unit energy.
 ///
 /// G maps drives over one window to the state at its end, `C = G Gᵀ = U Λ Uᵀ`. With `W = Λ^{-1/2} Uᵀ G`, whose rows are
 /// orthonormal, the least-energy drive of the state y is `Wᵀ y`, its energy `|y|²`, and a readout φ of the state reads
@@ -155,17 +159,18 @@ impl<'r> State<'r> {
         self.length
     }
 
-    /// Number of coordinates of unit energy.
+    /// Number of coordinates of the state, each of unit energy.
     pub fn rank(&self) -> usize {
         self.energies.len()
     }
 
-    /// Number of plants that there are.
+    /// Number of plants (surface models) that share the drive.
     pub fn plants(&self) -> usize {
         self.plants.len()
     }
 
-    /// Readouts of the nominal plant at a target's points, rank x points, and the points that stand for them.
+    /// Weights that give the nominal plant's velocity at a target's points from the state, rank x points,
+    /// and the points used: those requested, or the nearest stored ones.
     ///
     /// # Errors
     /// [`FocusError::Unknown`] for points without responses.
@@ -174,7 +179,8 @@ impl<'r> State<'r> {
         Ok((self.whiten(0, weights.as_ref()), used))
     }
 
-    /// Readouts all over a plant, rank x cells, and where the cells are.
+    /// Weights that give a plant's velocity at cells all over the surface from the state, rank x cells, and
+    /// the cells' places.
     pub fn cells(&self, plant: usize) -> (Mat<f64>, Vec<Point>) {
         let (weights, points) = self.plants[plant].cells();
         (self.whiten(plant, weights.as_ref()), points)
@@ -185,7 +191,8 @@ impl<'r> State<'r> {
         product(self.white.as_ref().subcols(first, weights.nrows()), weights)
     }
 
-    /// The drive `Wᵀ y`, a row of samples per channel, one behind the other.
+    /// The drive of least energy for the state y, `Wᵀ y`: the samples of each channel, one channel after
+    /// another.
     ///
     /// # Errors
     /// [`FocusError::Dsp`] if the plants do not fit together.
@@ -201,7 +208,7 @@ impl<'r> State<'r> {
         Ok(channels)
     }
 
-    /// The matrix W, rank x samples of all channels.
+    /// The matrix W that maps a drive to the state, rank x samples of all channels.
     ///
     /// # Errors
     /// [`FocusError::Count`] if it has too many values; those of [`State::emit`].
@@ -216,7 +223,7 @@ impl<'r> State<'r> {
     }
 }
 
-/// Where each of some blocks begins, one behind the other.
+/// Start index of each block, for blocks of these sizes one after another.
 fn starts(sizes: &[usize]) -> Vec<usize> {
     sizes
         .iter()

@@ -6,8 +6,8 @@ use unripple_core::{ModalResponses, Point, Pole};
 use unripple_dsp::ModalSynth;
 use unripple_linalg::{Accum, Mat, Par, multiply, product};
 
-/// Cells per shortest wavelength along each side, where velocity is kept low. With twice this value, there are four times
-/// the cells, and their mean stays the same.
+/// Number of cells per shortest wavelength along each side, in which velocity is minimised. With twice this
+/// value, there are four times as many cells, and the mean over them stays the same.
 const CELLS: f64 = 6.0;
 
 /// Quantity that a coordinate of a mode's state at the focal instant stands for.
@@ -15,17 +15,17 @@ const CELLS: f64 = 6.0;
 pub(crate) enum Keeps {
     /// The velocity of the mode.
     Velocity,
-    /// The displacement of the mode times its angular frequency: to be brought to rest.
+    /// The displacement of the mode times its angular frequency, which is to be minimised too.
     Displacement,
 }
 
-/// Modes under a drive: their velocities at the focal instant.
+/// Linear model of modes under a drive: its state is made of their velocities at the focal instant.
 #[derive(Debug)]
 pub(crate) struct ModalPlant<'r> {
     responses: &'r ModalResponses,
     /// Velocity of each mode at the focal instant after an impulse at each sample, over the rate: samples x modes.
     table: Mat<f64>,
-    /// Makes drives of one window faster than the table does.
+    /// Synthesises drives of one window faster than products with `table`.
     synth: Option<ModalSynth>,
 }
 
@@ -69,14 +69,16 @@ impl<'r> ModalPlant<'r> {
         self.table.ncols()
     }
 
-    /// `(BᵀB') ∘ (VᵀV')` with B the input weights and V the tables.
+    /// Gram matrix `G Gᵀ'` of the maps G from drives to the states of two plants, modes x modes: `(BᵀB') ∘
+    /// (VᵀV')` with B the input weights and V the tables.
     pub fn gram(&self, other: &Self) -> Mat<f64> {
         let inputs = product(self.responses.input.transpose(), other.responses.input.as_ref());
         let tables = product(self.table.transpose(), other.table.as_ref());
         Mat::from_fn(self.modes(), other.modes(), |i, j| inputs[(i, j)] * tables[(i, j)])
     }
 
-    /// Adds the drive of the weights `z` of modes to the channels, a row of samples each.
+    /// Adds the drive `Gᵀ z` to the channels, each a row of samples; G is the map from drives to the modes'
+    /// velocities.
     pub fn emit(&self, z: &[f64], channels: &mut [f64]) -> Result<(), FocusError> {
         let input = &self.responses.input;
         let (length, rate) = (self.table.nrows(), self.responses.conditions.rate);
@@ -97,7 +99,7 @@ impl<'r> ModalPlant<'r> {
         Ok(())
     }
 
-    /// Weights that read the velocity at points, modes x points.
+    /// Weights that give the velocity at points from the modes' velocities, modes x points.
     pub fn readout(&self, points: &[Point]) -> Mat<f64> {
         let &[point] = points else { return self.responses.shapes.at_all(points).transpose().to_owned() };
         let mut row = vec![0.0; self.responses.shapes.modes()];
@@ -105,7 +107,8 @@ impl<'r> ModalPlant<'r> {
         Mat::from_fn(row.len(), 1, |m, _| row[m])
     }
 
-    /// Weights that read the velocity all over the surface, modes x cells, and where the cells are (m).
+    /// Weights that give the velocity at cells all over the surface from the modes' velocities, modes x
+    /// cells, and the cells' centres (m).
     pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {
         let points = lattice(self.responses);
         (self.readout(&points), points)
@@ -120,7 +123,7 @@ impl<'r> ModalPlant<'r> {
     }
 }
 
-/// Cells all over a surface, where velocity is kept low: their centres, in metres.
+/// Centres of the cells all over a surface in which velocity is minimised, in metres.
 pub(super) fn lattice(responses: &ModalResponses) -> Vec<Point> {
     let conditions = &responses.conditions;
     let (width, height) = conditions.outline.extent();

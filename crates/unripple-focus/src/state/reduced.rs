@@ -1,4 +1,4 @@
-//! States of modes whose shapes are linearly dependent, with as many coordinates as there are independent shapes.
+//! States of modes with linearly dependent shapes: one coordinate per independent shape.
 
 use super::modal::{lattice, ringing, steady};
 use super::room::fits;
@@ -6,12 +6,12 @@ use crate::FocusError;
 use unripple_core::{ModalResponses, Point};
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product, symmetric};
 
-/// Combinations of shapes with less than this share of the energy of the strongest, over the surface, count as none.
-/// Larger, independent shapes would be lost; smaller, rounding would count as a shape.
+/// Combinations of shapes with less than this share of the energy of the strongest, over the surface, count
+/// as zero. Larger, independent shapes would be lost; smaller, rounding would count as a shape.
 const ALIKE: f64 = 1e-12;
 
-/// Oscillations with linearly dependent shapes, under a drive of one window: a state whose coordinates are the velocities of
-/// independent shapes.
+/// Linear model of oscillations with linearly dependent shapes, under a drive of one window or period: its
+/// state is made of the velocities of independent shapes.
 ///
 /// Under loads, responses are sums of oscillations whose large parts cancel. With Φ their shapes over the surface and
 /// `ΦᵀΦ = R Σ² Rᵀ`, every readout lies in the span of R, and `Rᵀ c` is small where c is not.
@@ -25,8 +25,8 @@ pub(crate) struct ReducedPlant<'r> {
 }
 
 impl<'r> ReducedPlant<'r> {
-    /// Independent shapes under drives of one window of `length` samples, the last of which is the focal instant, or
-    /// with `again` of one period of `length` samples, repeated without end.
+    /// A model for drives of one window of `length` samples, whose last sample is the focal instant, or with
+    /// `again` for periodic drives with a period of `length` samples.
     ///
     /// # Errors
     /// [`FocusError::Decomposition`]; [`FocusError::Count`] if an oscillation never becomes steady, and for too many samples or
@@ -73,18 +73,19 @@ impl<'r> ReducedPlant<'r> {
         &self.map
     }
 
-    /// Adds the drive of the weights `z` of shapes to the channels, a row of samples each.
+    /// Adds the drive `Gᵀ z` to the channels, each a row of samples; G is the map from drives to the state.
     pub fn emit(&self, z: &[f64], channels: &mut [f64]) {
         let made = product(self.map.as_ref(), MatRef::from_column_major_slice(z, z.len(), 1));
         channels.iter_mut().zip(made.col_as_slice(0)).for_each(|(d, made)| *d += made);
     }
 
-    /// Weights that read the velocity at points, shapes x points.
+    /// Weights that give the velocity at points from the state, shapes x points.
     pub fn readout(&self, points: &[Point]) -> Mat<f64> {
         product(self.basis.transpose(), self.responses.shapes.at_all(points).transpose())
     }
 
-    /// Weights that read the velocity all over the surface, shapes x cells, and where the cells are (m).
+    /// Weights that give the velocity at cells all over the surface from the state, shapes x cells, and the
+    /// cells' centres (m).
     pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {
         let points = lattice(self.responses);
         (self.readout(&points), points)

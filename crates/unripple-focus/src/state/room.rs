@@ -1,8 +1,8 @@
-//! Bound on the tables from which drives are optimised.
+//! Limit on the size of the tables from which drives are optimised.
 
 use crate::FocusError;
 
-/// Largest number of values of such a table, 2 GiB of them. With twice as many, windows may be twice as long.
+/// Largest number of values of a table, 2 GiB of them. With twice as many, windows may be twice as long.
 const MOST_VALUES: usize = 1 << 28;
 
 /// Refuses a table of too many values before it is allocated; `what` names the product of its rows and columns.

@@ -9,7 +9,8 @@ use unripple_linalg::{Mat, MatRef, product};
 /// twice the memory.
 const MOST_VALUES: usize = 1 << 27;
 
-/// Stored points under a drive of one window: their velocities at the focal instant.
+/// Linear model of the stored points of sampled responses under a drive: its state is made of their
+/// velocities at the focal instant.
 #[derive(Debug)]
 pub(crate) struct SampledPlant<'r> {
     responses: &'r SampledResponses,
@@ -18,7 +19,8 @@ pub(crate) struct SampledPlant<'r> {
 }
 
 impl<'r> SampledPlant<'r> {
-    /// Stored points under drives of one window of `length` samples, the last of which is the focal instant.
+    /// Stored points under drives that last one window of `length` samples, the last of which is the focal
+    /// instant.
     ///
     /// # Errors
     /// [`FocusError::Count`] if the responses are shorter, or too many.
@@ -48,13 +50,15 @@ impl<'r> SampledPlant<'r> {
         &self.map
     }
 
-    /// Adds the drive of the weights `z` of points to the channels, a row of samples each.
+    /// Adds the drive `Gᵀ z` to the channels, each a row of samples; G is the map from drives to the stored
+    /// points' velocities.
     pub fn emit(&self, z: &[f64], channels: &mut [f64]) {
         let made = product(self.map.as_ref(), MatRef::from_column_major_slice(z, z.len(), 1));
         channels.iter_mut().zip(made.col_as_slice(0)).for_each(|(d, made)| *d += made);
     }
 
-    /// Weights that read the velocity at points, stored points x points, and the points that stand for them.
+    /// Weights that give the velocity at points from the state, stored points x points, and the stored
+    /// points used for them.
     pub fn readout(&self, target: usize, points: &[Point]) -> Result<(Mat<f64>, Vec<Point>), FocusError> {
         let stored =
             points.iter().map(|at| locate(self.responses, target, *at)).collect::<Result<Vec<_>, _>>()?;
@@ -62,7 +66,8 @@ impl<'r> SampledPlant<'r> {
         Ok((weights, stored.iter().map(|p| self.responses.points[*p]).collect()))
     }
 
-    /// Weights that read the velocity all over the surface, an identity matrix, and where its points are (m).
+    /// Weights that give the velocity at all stored points from the state, which are an identity matrix, and
+    /// the stored points (m).
     pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {
         let count = self.points();
         (Mat::identity(count, count), self.responses.points.clone())

@@ -1,27 +1,29 @@
-//! Waveforms that are asked for, band-limited, as spectra on the drive's clock.
+//! Requested waveforms, limited to the band, as spectra on the time axis of the drive.
 
 use super::Waveform;
 use super::plan::Plan;
 use unripple_dsp::Complex;
 
-/// Prescribed motion of the targets: the waveforms within the band, as spectra on the drive's clock.
+/// Prescribed motion of the targets: the waveforms limited to the band, as spectra on the time axis of the
+/// drive.
 #[derive(Debug)]
 pub(crate) struct Asked {
-    /// Spectrum of each waveform on the drive's clock, over the lines of the band.
+    /// Spectrum of each waveform on the time axis of the drive, over the lines of the band.
     spectra: Vec<Vec<Complex<f64>>>,
     /// Share of each waveform's energy, 0 to 1, that lies outside the band.
     pub lost: Vec<f64>,
 }
 
 impl Asked {
-    /// The spectra of waveforms within the plan's band.
+    /// Computes the spectra of waveforms within the plan's band.
     pub fn new(waveforms: &[Waveform], plan: &Plan) -> Self {
         let (spectra, lost) =
             waveforms.iter().zip(&plan.starts).map(|(w, start)| within(w, *start, plan)).unzip();
         Self { spectra, lost }
     }
 
-    /// `[line][row]`: a row per point of every waveform, then nothing for every point of silence.
+    /// Prescribed spectra as `[line][row]`: one row per point of every waveform, then a row of zeros for
+    /// each of the `silent` points.
     pub fn rows(&self, waveforms: &[Waveform], silent: usize) -> Vec<Complex<f64>> {
         let sources: Vec<&Vec<Complex<f64>>> = waveforms
             .iter()
@@ -37,7 +39,7 @@ impl Asked {
         rows
     }
 
-    /// The waveforms in time, targets x samples of the drive, times `scale`.
+    /// The band-limited waveforms as signals, times `scale`: targets x samples of the drive.
     pub fn signals(&self, plan: &Plan, scale: f64) -> Vec<Vec<f64>> {
         let signal = |own: &Vec<Complex<f64>>| {
             let mut spectrum = vec![Complex::default(); plan.convolver.size() / 2 + 1];
@@ -51,7 +53,7 @@ impl Asked {
     }
 }
 
-/// The spectrum of one waveform within the band, and the share of its energy that is not.
+/// The spectrum of one waveform within the band, and the share of its energy outside the band.
 fn within(waveform: &Waveform, start: usize, plan: &Plan) -> (Vec<Complex<f64>>, f64) {
     let silence = std::iter::repeat_n(0.0, start);
     let all = plan.convolver.spectrum(silence.chain(waveform.samples.iter().copied()));

@@ -19,7 +19,7 @@ use plan::Plan;
 use transfer::Transfer;
 use unripple_core::{Drive, Point, Responses, require};
 
-/// A drive that makes targets follow waveforms, and the motion that was prescribed at them.
+/// A drive that makes targets follow waveforms, and the motion that was prescribed at the targets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Played {
     /// The drive to be sent to the actuators.
@@ -33,13 +33,14 @@ pub struct Played {
     pub lost: Vec<f64>,
     /// Factor by which the limits reduced all waveforms; 1 where no limit was reached.
     pub scale: f64,
-    /// The points of each target: those asked for, or the nearest ones whose responses are stored.
+    /// The points of each target: those requested or, with sampled responses, the nearest stored ones.
     pub points: Vec<Vec<Point>>,
-    /// The points of silence: those asked for, or the nearest ones whose responses are stored.
+    /// The points kept still: those requested or, with sampled responses, the nearest stored ones.
     pub silent: Vec<Point>,
 }
 
-/// The drive that makes targets follow waveforms and keeps points of silence still, by regularised least squares.
+/// Computes the drive that makes targets follow waveforms and keeps the points `silent` still, by
+/// regularised least squares.
 ///
 /// With H(f) the K x N matrix of transfer functions from N actuators to K points, w(f) the prescribed motion (zero at
 /// points of silence, and before and after the waveforms), and g(f) the mean of |H|² over points, summed over actuators
@@ -47,11 +48,11 @@ pub struct Played {
 ///
 /// `Σ_f |H d − w|² / g + energy_weight · Σ_t |d|² / p`
 ///
-/// with p(t) = 1 while the drive may last, falling smoothly to zero at its ends. It is found from the dual problem,
-/// which has K unknowns per frequency, `(H p Hᴴ / g + energy_weight) y = w / √g`, `d = p Hᴴ y / √g`, by conjugate
-/// gradients preconditioned with the solution for p = 1 at all times, a K x K system per frequency
-/// (Tikhonov-regularised multichannel inversion: Kirkeby, Nelson, Hamada and Orduña-Bustamante, IEEE Trans. Speech
-/// Audio Process. 6, 1998). More than N points are met in the least-squares sense.
+/// with p(t) = 1 for the duration of the drive, falling smoothly to zero at its ends. It is found from the
+/// dual problem, which has K unknowns per frequency, `(H p Hᴴ / g + energy_weight) y = w / √g`, `d = p Hᴴ y
+/// / √g`, by conjugate gradients preconditioned with the solution for p = 1 at all times, a K x K system per
+/// frequency (Tikhonov-regularised multichannel inversion: Kirkeby, Nelson, Hamada and Orduña-Bustamante,
+/// IEEE Trans. Speech Audio Process. 6, 1998). More than N points are met in the least-squares sense.
 ///
 /// # Errors
 /// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for points that cannot be reached,

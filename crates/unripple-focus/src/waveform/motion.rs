@@ -5,9 +5,10 @@ use unripple_core::Point;
 /// A target, and the waveform that its motion is to follow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waveform {
-    /// Where, in metres: a point, or a set of points that are all to move alike.
+    /// Place of the target, in metres: a point, or a set of points that are all to have this motion.
     pub points: Vec<Point>,
-    /// Samples of the motion, at the sample rate of the responses: metres, or m/s where velocity is asked for.
+    /// Samples of the motion, at the sample rate of the responses: in metres, or in m/s with
+    /// [`Quantity::Velocity`].
     pub samples: Vec<f64>,
     /// Seconds from the start of the first waveform to the start of this one; rounded to a sample.
     pub delay: f64,
@@ -19,7 +20,7 @@ impl Waveform {
         Self { points: vec![point], samples, delay: 0.0 }
     }
 
-    /// The same waveform, later by `delay` seconds.
+    /// This waveform, delayed by `delay` seconds.
     pub fn delayed(self, delay: f64) -> Self {
         Self { delay, ..self }
     }

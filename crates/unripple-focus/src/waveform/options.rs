@@ -1,4 +1,4 @@
-//! How waveforms are played: quantity, band, regularisation and limits.
+//! Options of drives for waveforms: quantity, band, regularisation and limits.
 
 use super::Quantity;
 use crate::FocusError;
@@ -9,13 +9,15 @@ use unripple_core::require;
 pub struct PlayOptions {
     /// Quantity of the samples: displacement or velocity.
     pub quantity: Quantity,
-    /// Lowest and highest frequency that is played, in Hz; the responses' band where `None`. The highest tenth fades out.
+    /// Lowest and highest frequency that is played, in Hz; the responses' band where `None`. The prescribed
+    /// motion fades out over the highest tenth of the band.
     pub band: Option<[f64; 2]>,
     /// Weight λ of the drive's energy against the error, dimensionless; see [`play`](super::play). A single target
     /// whose response has the mean strength g is followed at 1/(1 + λ) of its amplitude: half at 1, practically all at
     /// 1e-5.
     pub energy_weight: f64,
-    /// Time that the drive may begin before the first waveform and end after the last, in seconds.
+    /// How long before the first waveform the drive may begin, and how long after the end of the last
+    /// waveform it may end, in seconds.
     pub lead: [f64; 2],
     /// Largest drive per actuator, in the drive's unit. A drive above it is scaled down as a whole.
     pub limit: f64,
@@ -45,7 +47,7 @@ impl Default for PlayOptions {
 }
 
 impl PlayOptions {
-    /// Refuses numbers out of range.
+    /// Checks that all numbers are in their ranges.
     pub(super) fn check(&self) -> Result<(), FocusError> {
         let positive = |x: f64| x.is_finite() && x > 0.0;
         for (what, x) in [("limit", self.limit), ("rms limit", self.rms_limit.unwrap_or(1.0))] {

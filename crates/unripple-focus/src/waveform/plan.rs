@@ -8,8 +8,8 @@ use std::ops::Range;
 use unripple_core::{Responses, require, window_samples};
 use unripple_dsp::Convolver;
 
-/// Decay, in nepers, after which what wraps round the transform no longer matters: to 1/10 000. With twice this value,
-/// transforms are longer by as much.
+/// Decay, in nepers, after which vibration that wraps round the transform no longer matters: to 1/10 000.
+/// With twice this value, transforms are longer by the same decay time.
 const FORGOTTEN: f64 = 9.2;
 
 /// Largest number of values of a transfer function, 2 GiB of them: lines x points x actuators. With twice this value, problems of twice
@@ -23,29 +23,30 @@ pub(crate) const MOST_SAMPLES: usize = 1 << 24;
 /// edges make less that lies outside the band, and drives follow later.
 const EDGE: f64 = 8.0;
 
-/// Share of the band over which it fades out at its top. With twice this value, less of the band is followed, and waveforms
-/// ring less at its edge.
+/// Share of the band, at its top, over which the prescribed motion fades out. With twice this value, less of
+/// the band is followed, and waveforms ring less at its edge.
 const FADE: f64 = 0.1;
 
-/// Times and frequencies of a solution.
+/// Samples and frequency lines over which a drive is solved for.
 #[derive(Debug)]
 pub(crate) struct Plan {
     /// Samples per second.
     pub rate: f64,
-    /// First sample of each waveform in the drive.
+    /// Sample of the drive at which each waveform starts.
     pub starts: Vec<usize>,
-    /// The share p of the drive that is let through at each of its samples.
+    /// Taper p of the drive, 0 to 1, at each of its samples: 1 except near both ends.
     pub taper: Vec<f64>,
-    /// Lines of the transform that are played.
+    /// Indices of the transform's frequency lines that lie within the band.
     pub lines: Range<usize>,
-    /// The share of what is asked for that is kept, for each of these lines.
+    /// Factor on the prescribed motion at each of `lines`: 1, falling to 0 at the top of the band.
     pub fade: Vec<f64>,
-    /// The transform: the drive from its first sample, then silence until it has died out.
+    /// Fourier transform over the drive and the time afterwards in which the surface's vibration decays.
     pub convolver: Convolver,
 }
 
 impl Plan {
-    /// The lines, starts and edges for some waveforms and a number of `silent` points.
+    /// Determines frequency lines, start samples and taper for these waveforms and `silent` (a number)
+    /// points that are kept still.
     pub fn new(
         responses: &Responses,
         waveforms: &[Waveform],
@@ -110,13 +111,13 @@ fn band(responses: &Responses, options: &PlayOptions) -> Result<[f64; 2], FocusE
     Ok([low, high.min(0.99 * nyquist)])
 }
 
-/// 1 below, 0 at the top of the band.
+/// Factor on the prescribed motion at a frequency: 1 in most of the band, falling to 0 at its top.
 fn fade(hz: f64, high: f64) -> f64 {
     let into = ((hz / high - (1.0 - FADE)) / FADE).clamp(0.0, 1.0);
     (PI / 2.0 * into).cos().powi(2)
 }
 
-/// A raised cosine at either end, nothing at the ends themselves.
+/// Taper of `length` samples: 1 in the middle, with raised-cosine edges of `edge` samples.
 fn taper(length: usize, edge: usize) -> Vec<f64> {
     let edge = edge.clamp(1, length.div_ceil(2).max(1));
     let share = |i: usize| {

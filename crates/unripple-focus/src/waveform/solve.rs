@@ -7,7 +7,7 @@ use unripple_dsp::Complex;
 
 type Lines = Vec<Complex<f64>>;
 
-/// The channels of the drive of least cost, actuators x samples, by conjugate gradients on its dual.
+/// The channels of the drive of least cost, actuators x samples, by conjugate gradients on the dual problem.
 pub(crate) fn solve(transfer: &Transfer, asked: &Lines, plan: &Plan, options: &PlayOptions) -> Vec<Vec<f64>> {
     let system = System { transfer, plan, ridge: options.energy_weight };
     let endless = Endless::new(transfer, options.energy_weight);
@@ -72,7 +72,8 @@ impl System<'_> {
         signal
     }
 
-    /// The system times a dual: each row's waves through the drive that it makes, and the ridge.
+    /// The dual system's matrix times a dual vector: the motion at all points under the drive of that
+    /// vector, plus the ridge times it.
     fn apply(&self, dual: &Lines) -> Lines {
         let Transfer { rows, ports, values, .. } = self.transfer;
         let mut image: Lines = dual.iter().map(|y| y * self.ridge).collect();
@@ -87,7 +88,8 @@ impl System<'_> {
     }
 }
 
-/// The solution for a drive without end, (H Hᴴ + ridge)⁻¹ per line, through the smaller of H Hᴴ and Hᴴ H.
+/// Preconditioner: the solution for a drive of unlimited duration, (H Hᴴ + ridge)⁻¹ per line, through the
+/// smaller of H Hᴴ and Hᴴ H.
 struct Endless {
     size: usize,
     ridge: f64,
@@ -117,7 +119,7 @@ impl Endless {
         Self { size, ridge, inverses }
     }
 
-    /// The preconditioner times some lines.
+    /// The preconditioner applied to a dual vector.
     fn apply(&self, transfer: &Transfer, lines: &Lines) -> Lines {
         let Transfer { rows, ports, values, .. } = transfer;
         let mut out = Vec::with_capacity(lines.len());

@@ -10,32 +10,33 @@ use unripple_core::{ModalResponses, Point, Pole, Responses, SampledResponses};
 use unripple_dsp::{Complex, integral};
 use unripple_linalg::{Mat, product};
 
-/// Modes times lines of the block that is summed at once, 16 MiB. With twice this value, twice the memory; sums differ by
-/// rounding.
+/// Number of modes times number of frequency lines in a block that is summed at once, 16 MiB. With twice
+/// this value, twice the memory; sums differ by rounding.
 const AT_ONCE: usize = 1 << 20;
 
 /// Width of the band over that of the moving average which gives the mean response g(f). With twice this value, the error's weight
 /// follows single resonances more closely.
 const SMOOTH: usize = 30;
 
-/// Responses of all points to all actuators over the lines of the band, over the root of the usual response g(f).
+/// Transfer functions from all actuators to all points over the lines of the band, divided by √g, with g(f)
+/// the mean squared response.
 #[derive(Debug)]
 pub(crate) struct Transfer {
     /// Number of points.
     pub rows: usize,
     /// Number of actuators.
     pub ports: usize,
-    /// The transfer functions, `[line][row][port]`.
+    /// The transfer functions times `weights`, `[line][point][actuator]`.
     pub values: Vec<Complex<f64>>,
-    /// 1/√g of each line.
+    /// Weight 1/√g of each frequency line, with g the smoothed mean squared response.
     pub weights: Vec<f64>,
-    /// The points of each set: those asked for, or the nearest ones whose responses are stored.
+    /// The points of each set: those requested or, with sampled responses, the nearest stored ones.
     pub places: Vec<Vec<Point>>,
 }
 
 impl Transfer {
-    /// The transfer functions of sets of points, of which those from the `moving`-th (an index) on are to be
-    /// silent.
+    /// Computes the transfer functions to sets of points: the first `moving` (a count) sets are targets, all
+    /// others points that are kept still.
     pub fn new(
         responses: &Responses,
         sets: &[&[Point]],
@@ -78,7 +79,8 @@ fn weights(values: &[Complex<f64>], per_line: usize, rows: usize) -> Vec<f64> {
     (0..lines).map(|line| weight(mean(line))).collect()
 }
 
-/// The transform of what field and stepper do exactly: kicks by each sample of the drive, then free decay.
+/// Exact transform of the modal response that the field and the time-domain simulation use: an impulse for
+/// each sample of the drive, then free decay.
 fn fill_modal(
     modal: &ModalResponses,
     sets: &[&[Point]],
@@ -150,7 +152,7 @@ impl Ring {
     }
 }
 
-/// The transforms of stored responses, and the points that stand for those asked for.
+/// The transforms of stored responses, and the stored points used for those requested.
 fn fill_sampled(
     sampled: &SampledResponses,
     sets: &[&[Point]],

@@ -1,21 +1,21 @@
-//! Whether a thread of this program makes progress, as the kernel counts it.
+//! Check whether a thread of this program makes progress, from the kernel's counters.
 
 use std::path::PathBuf;
 
 /// A thread, by its folder in Linux's `/proc`.
 pub(super) struct Caller(PathBuf);
 
-/// The activity of a thread so far: whether it waits to run, and its time on a processor.
+/// The activity of a thread so far: whether it is running or ready to run, and its time on a processor.
 #[derive(PartialEq)]
 pub(super) struct Activity {
-    /// Whether the thread would run if it were given a processor.
+    /// Whether the thread is running or would run if a processor were free.
     pub(super) waits_for_a_processor: bool,
     /// Times on a processor and in the queue for one, in nanoseconds, and how often it was given one.
     scheduled: String,
 }
 
 impl Caller {
-    /// The calling thread; `None` where the kernel does not tell its activity.
+    /// The calling thread; `None` if the kernel does not report its activity.
     pub(super) fn this_thread() -> Option<Self> {
         let folder = PathBuf::from("/proc").join(std::fs::read_link("/proc/thread-self").ok()?);
         folder.join("schedstat").exists().then_some(Self(folder))

@@ -1,4 +1,5 @@
-//! How a client leaves its server: on a thread of its own, since a server that stands still answers nobody.
+//! Leaving of a client from its server, on a separate thread, since a server that has stopped does not
+//! answer.
 
 use super::Context;
 use super::api::Api;
@@ -9,12 +10,12 @@ use crate::jack::events::Events;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, mpsc};
 
-/// A client that leaves, with all that its callbacks have; it has left once this is dropped.
+/// A client that leaves its server, with all data of its callbacks; it has left once this is dropped.
 pub(super) struct Closing {
     pub(super) api: &'static Api,
     pub(super) raw: *mut RawClient,
     pub(super) context: *mut Context,
-    /// Whether the server is to go back to its clock.
+    /// Whether the server is to return from freewheeling to its clock.
     pub(super) freewheels: bool,
     pub(super) events: Arc<Events>,
 }
@@ -24,8 +25,8 @@ pub(super) struct Closing {
 unsafe impl Send for Closing {}
 
 impl Closing {
-    /// Closes the client, and waits for that for a while. A server that stands still is left to itself, and what its callbacks use is
-    /// freed once it goes on.
+    /// Closes the client, and waits for that for a limited time. If the server has stopped, this returns
+    /// without waiting any longer, and the data of the callbacks is freed once the server continues.
     pub(super) fn begin(self) {
         let (left, over) = mpsc::channel::<()>();
         let leave = move || {

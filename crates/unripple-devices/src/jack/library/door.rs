@@ -1,4 +1,5 @@
-//! One client of this program at a time joins or leaves: the library keeps some of its state per program.
+//! Lock that lets only one client of this program at a time join or leave a server: the library has state
+//! per program.
 
 use super::caller::Caller;
 use crate::DevicesError;
@@ -6,17 +7,18 @@ use std::ffi::c_int;
 use std::sync::{Mutex, MutexGuard, Once, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
-/// How long a client that leaves is waited for, and how long one that joins waits for it: a server at work takes a few cycles.
+/// How long this program waits for a client that leaves, and a joining client for the lock: a running server
+/// takes a few cycles.
 pub(super) const PATIENCE: Duration = Duration::from_secs(1);
 
-/// How long a program that ends waits for a call of the library that makes progress: other programs may leave it a twentieth of the time
-/// that it needs.
+/// How long a program that ends waits for a library call that makes progress: other programs may leave it
+/// only a twentieth of the processor time.
 const PROGRESS: Duration = Duration::from_secs(10);
 
-/// Opening and closing clients is not for two threads at once.
+/// Lock for opening and closing clients, which two threads must not do at once.
 static DOOR: Mutex<()> = Mutex::new(());
 
-/// The thread that is calling the library; `None` where the system does not tell.
+/// The thread that is calling the library; `None` if the system does not report its activity.
 static CALLER: Mutex<Option<Caller>> = Mutex::new(None);
 
 /// Permission to call the library, until it is dropped.
@@ -50,7 +52,7 @@ fn caller() -> MutexGuard<'static, Option<Caller>> {
 }
 
 unsafe extern "C" {
-    /// Has a function called when the program ends by itself.
+    /// Registers a function to be called when the program ends by itself.
     fn atexit(call: extern "C" fn()) -> c_int;
 }
 
@@ -76,12 +78,13 @@ pub(super) fn door() -> Result<(), DevicesError> {
     })
 }
 
-/// Lets no client join or leave any more, for a program that is about to end. Waits before until none does: for a call that makes progress
-/// ten seconds at most, for one that sleeps a second.
+/// Prevents all later joining and leaving of clients, for a program that is about to end. Waits first until
+/// no client is joining or leaving: ten seconds at most for a call that makes progress, one second for a
+/// call that sleeps.
 ///
-/// The library locks a database of all JACK programs of a user within these calls. The lock of a program that ends within one stays, and
-/// every JACK program of that user, started then, waits for it for ever. A call that waits for a server that stands still sleeps, and
-/// holds no lock.
+/// The library locks a database of all JACK programs of a user within these calls. If a program ends within
+/// one, its lock remains, and every JACK program of that user that is started later waits for it for ever. A
+/// call that waits for a stopped server sleeps, and holds no lock.
 pub(in crate::jack) fn shut() {
     let start = Instant::now();
     let (mut before, mut progress) = (None, start);

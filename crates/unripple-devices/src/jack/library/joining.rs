@@ -1,5 +1,5 @@
-//! How a client joins a server: on a thread of its own, since a library that waits for a lock, or for a server that stands still, never
-//! returns.
+//! Joining of a client to a server, on a separate thread, since a library that waits for a lock, or for a
+//! stopped server, never returns.
 
 use super::api::Api;
 use super::door::{PATIENCE, Passage, door};
@@ -9,7 +9,8 @@ use crate::DevicesError;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
-/// How long the library is waited for to join: a server at work answers within some cycles, one on a loaded machine within a second.
+/// Longest wait for the library to join: a running server answers within some cycles, one on a loaded
+/// machine within a second.
 const JOINING: Duration = Duration::from_secs(5);
 
 /// A client that was just opened, until it is taken; if the thread that waited for it has gone, the client is closed again.
@@ -33,7 +34,7 @@ impl Drop for Opened {
     }
 }
 
-/// Joins a server by a call of the library, which gives a null pointer where none answers.
+/// Joins a server by a call of the library, which returns a null pointer if no server answers.
 ///
 /// # Errors
 /// [`DevicesError::Jack`] if the call does not return, while another client joins or leaves, or while one has not left a server that is
@@ -82,7 +83,7 @@ pub(super) fn join(
     }
 }
 
-/// Where JACK 2 keeps the database that its programs share.
+/// Path of the database that JACK 2 programs share.
 fn database() -> String {
     #[cfg(target_os = "linux")]
     if let Ok(own) = std::fs::metadata("/proc/self") {

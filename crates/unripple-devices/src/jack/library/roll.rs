@@ -1,7 +1,8 @@
-//! The clients of this program that are open, and whether the library would delete them.
+//! List of the open clients of this program, and whether the library would delete them.
 //!
-//! Once a server is gone, JACK 2 deletes all clients of the program when another joins (`JackLibGlobals::Init` in its sources); closing one
-//! of them later crashes. So no client may join then before all others have left.
+//! Once a server is gone, JACK 2 deletes all clients of the program when another joins
+//! (`JackLibGlobals::Init` in its sources); closing one of them later crashes. So, after a server is gone,
+//! no client may join before all others have left.
 
 use super::types::RawClient;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +18,7 @@ fn roll() -> MutexGuard<'static, Vec<usize>> {
     ROLL.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Notes that a server is gone; called from its callback.
+/// Records that a server is gone; called from its callback.
 pub(super) fn server_gone() {
     DOWN.store(true, Ordering::Release);
 }
@@ -27,8 +28,8 @@ pub(super) fn in_danger() -> bool {
     DOWN.load(Ordering::Acquire) && !roll().is_empty()
 }
 
-/// Lists a client that has just joined. If a server was gone just then, it is not known whether the library deleted the other clients: they
-/// are no longer listed, and never closed.
+/// Adds a client that has just joined to the list. If a server was gone at that time, it is unknown whether
+/// the library deleted the other clients: they are removed from the list, and never closed.
 pub(super) fn enter(raw: *mut RawClient) {
     let mut roll = roll();
     if DOWN.swap(false, Ordering::AcqRel) {

@@ -1,4 +1,4 @@
-//! How JACK's threads begin: whoever creates one goes on once it runs.
+//! Creation of JACK's threads: the creating thread continues only when the new one runs.
 //!
 //! JACK 2 gives a thread that it created a second to begin (`JackPosixThread::StartSync` in its sources, a thousand naps of a millisecond).
 //! Then it deletes what the thread is to work on, but not the thread: the one that writes messages (`JackMessageBuffer::Create`) and the
@@ -15,7 +15,7 @@ use std::ffi::{CStr, c_char, c_int};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
-/// What a thread runs. It may end within it, cancelled by JACK.
+/// Function that a thread runs; the thread may end within it, cancelled by JACK.
 type Routine = unsafe extern "C-unwind" fn(Arg) -> Arg;
 
 /// A function that creates threads as `pthread_create` does.
@@ -25,24 +25,26 @@ unsafe extern "C" {
     fn pthread_create(thread: Arg, attributes: Arg, routine: Routine, arg: Arg) -> c_int;
 }
 
-/// A thread that was created and has not begun: what it is to run, and whom it tells that it runs.
+/// A thread that was created and has not begun: the function that it is to run, and a channel by which it
+/// reports that it runs.
 struct Start {
     routine: Routine,
     arg: Arg,
     tell: Sender<()>,
 }
 
-/// How long a thread is waited for without a look at the time: whoever judges by the waiting thread whether the library makes progress, as
-/// [`shut`](super::shut) does, sees it run.
+/// Interval at which the thread that waits for a new one wakes up: so code that judges by it whether the
+/// library makes progress, as [`shut`](super::shut) does, sees it run.
 const LOOK: Duration = Duration::from_millis(10);
 
-/// How long the processor is left to a thread that has begun, so that JACK knows it before the time is counted.
+/// Time that the creating thread sleeps after the new one has begun, so that JACK registers the latter
+/// before its time-out starts.
 const HEADSTART: Duration = Duration::from_millis(2);
 
-/// How the versions of JACK 2 begin.
+/// Beginning of the version strings of JACK 2.
 const JACK_2: &str = "1.9.";
 
-/// Has the library create its threads here, if it is JACK 2.
+/// Makes the library create its threads by [`create`], if it is JACK 2.
 pub(super) fn lead(library: &'static Library) {
     // SAFETY: the type is that which jack.h declares for this name.
     let version =
@@ -95,8 +97,9 @@ unsafe extern "C-unwind" fn begin(start: Arg) -> Arg {
     unsafe { routine(arg) }
 }
 
-/// Takes what a thread is to run, and tells that it runs. A thread that just began cannot be cancelled within this: it has not yet asked
-/// to be cancelled anywhere, and nothing here is a place where threads are.
+/// Reads what a thread is to run, and reports that it runs. A thread that just began cannot be cancelled
+/// within this function: it has not enabled asynchronous cancellation, and nothing here is a cancellation
+/// point.
 fn taken(start: *mut Start) -> (Routine, Arg) {
     // SAFETY: made by `with` for this thread alone.
     let start = unsafe { Box::from_raw(start) };

@@ -1,4 +1,4 @@
-//! Code of ours that JACK runs on its own thread, and that thread's end.
+//! Protection of this crate's code on JACK's threads against cancellation of the thread.
 //!
 //! A client that leaves ends its thread by `pthread_cancel`, at any instruction. Within our code that would leave memory half-written, and
 //! where such an end, which unwinds the thread by force, meets a [`catch_unwind`](std::panic::catch_unwind), the C library ends the whole
@@ -15,7 +15,8 @@ unsafe extern "C-unwind" {
     fn pthread_setcancelstate(state: c_int, before: *mut c_int) -> c_int;
 }
 
-/// Does `work` on a thread that cannot be cancelled meanwhile; a cancellation that comes meanwhile follows it.
+/// Runs `work` with cancellation of the thread disabled; a cancellation that is requested meanwhile takes
+/// effect afterwards.
 #[cfg(unix)]
 pub(super) fn uncancelled<T: Copy>(work: impl FnOnce() -> T) -> T {
     let mut before = 0;
