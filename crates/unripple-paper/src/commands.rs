@@ -6,7 +6,7 @@ use unripple_tasks::commands::{self, Done, again, asked, default_of, perform, un
 use unripple_tasks::record::Request;
 use unripple_tasks::{Progress, Record, TaskError, go_on, rerun};
 
-/// Names of the commands that can be done by name.
+/// Names of all commands that [`run`] performs: those of the tasks, and `reproduce`.
 pub const COMMANDS: [&str; commands::COMMANDS.len() + 1] = {
     let mut names = [reproduce::Ask::COMMAND; commands::COMMANDS.len() + 1];
     let mut at = 0;
@@ -29,7 +29,7 @@ pub fn default_ask(command: &str) -> Result<Value, TaskError> {
     }
 }
 
-/// Performs a command; fields that its request leaves out have their defaults.
+/// Performs a command by its name; fields that are absent from the request `ask` get their defaults.
 ///
 /// ```
 /// use unripple_paper::commands;
@@ -58,7 +58,7 @@ pub fn run(command: &str, ask: Value, progress: &mut dyn Progress) -> Result<Don
     }
 }
 
-/// Does what a record holds once more; `ask` says which report it is from, and where results go.
+/// Repeats a recorded run; `ask` names the report that the record is from and where results are written.
 ///
 /// # Errors
 /// Those of [`rerun::repeat`].

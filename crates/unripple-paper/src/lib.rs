@@ -8,10 +8,11 @@
 //!
 //! # In reading order
 //!
-//! A [`study::Bench`] holds what many foci on one surface have in common, a [`study::Sampling`] draws random placements,
-//! and [`study::against_window()`] is the first of the functions that compare simulated contrast with its closed form.
-//! [`reproduce::Ask`], [`reproduce::run()`] and [`reproduce::Report`] are the options, the work and the results of
-//! `unripple reproduce`. [`commands`] has that command and those of all tasks by their names.
+//! A [`study::Bench`] holds the data that many foci on one surface share, a [`study::Sampling`] draws
+//! random placements, and [`study::against_window()`] is the first of the functions that compare simulated
+//! contrast with its closed form. [`reproduce::Ask`], [`reproduce::run()`] and [`reproduce::Report`] are
+//! the options, the work and the results of `unripple reproduce`. [`commands`] has that command and those
+//! of all tasks by their names.
 //!
 //! ```
 //! use unripple_paper::study::{Bench, CELLS, Sampling, against_window};

@@ -11,20 +11,20 @@ use unripple::core::{Observed, Observer};
 /// Interval at which the caller checks for a cancellation: a tenth of the 0.2 s after which people take a program for stuck.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// The lane of [`apart`]: a task begins when none that was given up still runs, since each holds its memory and cores until its longest
-/// call is over.
+/// The lane of [`apart`]: a task begins when no cancelled one still runs, since each holds its memory and
+/// cores until its longest uninterruptible call is over.
 static TASKS: LazyLock<Lane> = LazyLock::new(|| Lane::new(0));
 
-/// A group of tasks, each on its own thread. A task that is cancelled runs on until its longest call is over; the next one begins as soon
-/// as no more than `beside` cancelled ones still run.
+/// Runs tasks, each on its own thread. A cancelled task runs on until it next checks for a cancellation; a
+/// new task begins as soon as no more than `beside` cancelled ones still run.
 #[derive(Clone, Debug)]
 pub struct Lane {
-    /// How many tasks that were given up still run.
+    /// Number of cancelled tasks that still run.
     given_up: Arc<(Mutex<usize>, Condvar)>,
     beside: usize,
 }
 
-/// What a task on its own thread says.
+/// Message from a task on its own thread to its caller.
 enum Said<R> {
     Stage(String),
     /// A part of the stage.
@@ -35,7 +35,7 @@ enum Said<R> {
     Over(Result<R, TaskError>),
 }
 
-/// What the thread and its caller share.
+/// State that the thread of a task and its caller share.
 #[derive(Default)]
 struct Shared {
     cancelled: AtomicBool,
@@ -43,13 +43,13 @@ struct Shared {
     placed: Mutex<bool>,
 }
 
-/// The caller's progress, as the thread sees it.
+/// Progress in the thread of a task, which forwards everything to the caller.
 struct Relay<R> {
     to: Sender<Said<R>>,
     shared: Arc<Shared>,
 }
 
-/// Passes on what long computations tell.
+/// Observer that forwards the progress of long computations to the caller.
 struct Parts<R>(Sender<Said<R>>);
 
 impl<R: Send> Observer for Parts<R> {
@@ -100,7 +100,7 @@ impl<R: Send + 'static> Progress for Relay<R> {
 }
 
 impl Lane {
-    /// A lane in which a task begins while at most `beside` tasks, a number, that were given up still run.
+    /// A lane in which a new task begins only while at most `beside` cancelled tasks still run.
     pub fn new(beside: usize) -> Self {
         Self { given_up: Arc::default(), beside }
     }
@@ -143,7 +143,7 @@ impl Lane {
         }
     }
 
-    /// Waits in the background for a task that nobody wants.
+    /// Waits in the background until a cancelled task has ended.
     fn give_up(&self, thread: std::thread::JoinHandle<()>) {
         self.count(|running| running + 1);
         let lane = self.clone();
@@ -157,8 +157,9 @@ impl Lane {
         }
     }
 
-    /// Waits, `at_most` so long (a duration, in s), until no task that was given up still runs, and says whether none does: before a process
-    /// ends, so that none is cut off while it makes a file or removes what it made.
+    /// Waits at most `at_most` (a duration, in s) until no cancelled task still runs, and returns whether
+    /// none does. Call it before the process ends, so that no task is cut off while it writes or removes
+    /// files.
     ///
     /// ```
     /// use std::time::Duration;
@@ -179,7 +180,7 @@ impl Lane {
         self.given_up.1.notify_all();
     }
 
-    /// Waits until few enough of the tasks that were given up still run, or this one is cancelled too.
+    /// Waits until few enough cancelled tasks still run, or until this task is cancelled too.
     fn wait(&self, progress: &dyn Progress) -> Result<(), TaskError> {
         let mut running = self.given_up.0.lock().unwrap_or_else(PoisonError::into_inner);
         while *running > self.beside {
@@ -217,7 +218,8 @@ where
     TASKS.run(move |progress| run(&ask, progress), progress)
 }
 
-/// Passes on what the task says until it is over; nothing if it is to be given up.
+/// Forwards the messages of the task to `progress` until the task is over, and returns its result; `None`
+/// if the task is cancelled.
 fn follow<R>(
     from: &Receiver<Said<R>>,
     shared: &Shared,

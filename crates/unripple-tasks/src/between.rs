@@ -6,11 +6,12 @@ use unripple::core::{Point, SampledResponses, Surface};
 use unripple::physics::Medium;
 use unripple_calibrate::{Between, BetweenOptions, Interpolation};
 
-/// Stored points farther than this from every target, in shortest wavelengths, are not used to interpolate.
+/// Distance from every target, in shortest wavelengths, beyond which stored points are not used to
+/// interpolate.
 const REACH: f64 = 5.0;
 
-/// A place this near to a stored point, in metres, is that point. Far below any wavelength: interpolation would give
-/// the same.
+/// Distance in metres within which a place counts as a stored point. Far below any wavelength:
+/// interpolation would give the same.
 const SAME: f64 = 1e-6;
 
 /// Adds interpolated responses to the stored ones, at those of the `places` (m) that are not among the stored points,

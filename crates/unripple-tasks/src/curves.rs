@@ -1,9 +1,10 @@
-//! The note on supported polygons that stand for a curve.
+//! A note on outlines whose simply supported polygon seems to stand for a curve.
 
 use unripple::act::Note;
 use unripple::core::Surface;
 
-/// A note where a supported edge of a sheet with bending stiffness seems to be a curve replaced by straight sides.
+/// A note if a simply supported edge of a sheet with bending stiffness seems to be a curve replaced by
+/// straight sides.
 pub(crate) fn flattened(surface: &Surface) -> Option<Note> {
     let corners = surface.outline.flattened_corners();
     let text = format!(

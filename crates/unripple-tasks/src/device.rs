@@ -1,11 +1,11 @@
-//! Options of a device as a request gives them, and the options of each kind of device made from them.
+//! Options of a device in a request, and the options of each kind of device made from them.
 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple::core::Surface;
 use unripple_devices::{DevicesError, JackOptions, Links, Perturbation, Virtual, VirtualOptions};
 
-/// Advice on how to build the program with sound cards, given by a build without them.
+/// Advice on how to build the program with sound cards, for error messages of a build without them.
 #[cfg(not(feature = "cards"))]
 pub const HOW_TO_GET_CARDS: &str = "build it with `cargo install --path crates/unripple-cli --features cards` (Debian: \
                                     libasound2-dev, pkg-config), or go through JACK or PipeWire";
@@ -26,7 +26,7 @@ pub enum DeviceKind {
 }
 
 impl DeviceKind {
-    /// Name of the kind of device in asks and on the command line.
+    /// Name of the kind of device in requests and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Virtual => "virtual",
@@ -37,7 +37,7 @@ impl DeviceKind {
     }
 }
 
-/// Options of a device: its kind, and options of each kind, which the others ignore.
+/// Options of a device: its kind, and options of each kind, which other kinds ignore.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DeviceAsk {
@@ -53,7 +53,7 @@ pub struct DeviceAsk {
     pub card: Option<String>,
     /// Card: the recording device, of the same card; by default the playback device.
     pub capture_card: Option<String>,
-    /// Card: samples per block.
+    /// Card: number of samples per block.
     pub card_block: usize,
     /// Tape: folder for the file to play and for the recordings of it.
     pub tape: Option<PathBuf>,
@@ -66,7 +66,7 @@ pub struct DeviceAsk {
     /// Virtual: seed by which the simulated surface differs at random from its file, in noise, gains, places, tension, damping and stray
     /// masses; by default it does not differ.
     pub unknowns: Option<u64>,
-    /// Virtual, with `unknowns`: signal-to-noise ratio, in dB.
+    /// Virtual, with `unknowns`: signal-to-noise ratio of the simulated sensors, in dB.
     pub snr_db: Option<f64>,
 }
 
@@ -90,13 +90,15 @@ impl Default for DeviceAsk {
 }
 
 impl DeviceAsk {
-    /// Whether the device runs by a clock of its own. The virtual surface does not, nor does a JACK server with `freewheel`.
+    /// Whether the device runs in real time, by its own clock. The virtual surface does not, nor does a
+    /// JACK server with `freewheel`.
     pub fn is_real(&self) -> bool {
         self.device != DeviceKind::Virtual && !self.freewheel
     }
 }
 
-/// Opens a virtual surface. If `unknowns` is given, the simulated surface is perturbed, and the perturbation is returned as well.
+/// Opens a virtual surface. If the options set `unknowns`, the simulated surface is perturbed, and the
+/// perturbation is returned as well.
 ///
 /// # Errors
 /// Those of [`Virtual`] and [`Perturbation::truth`].

@@ -51,7 +51,7 @@ impl TaskError {
         Self::Work(error.to_string())
     }
 
-    /// Whether the input is at fault rather than the work.
+    /// Whether the error lies in the input (the request or a file) rather than in the computation.
     pub fn is_bad_input(&self) -> bool {
         matches!(self, Self::Ask { .. } | Self::Input(_) | Self::Faults(_))
     }

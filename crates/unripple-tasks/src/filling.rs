@@ -4,11 +4,12 @@ use crate::{Progress, TaskError, go_on};
 use unripple::core::{Point, SampledResponses};
 use unripple_store::{Library, PointState, Quality, Take};
 
-/// Largest number of points computed and stored at once: some megabytes, and a fraction of a second.
+/// Largest number of points computed and stored at once: they take some megabytes and a fraction of a
+/// second.
 const BATCH: usize = 64;
 
-/// Largest number of samples computed and stored at once, half a GiB of them: fewer points of long responses. With twice this value, it
-/// takes twice the memory.
+/// Largest number of samples computed and stored at once: half a GiB of them, so that fewer points with
+/// long responses are computed together. Twice this value would take twice the memory.
 const MOST_SAMPLES: usize = 1 << 27;
 
 /// Computes and stores the responses of the library's missing points; those of `dead` actuators are zero. A library that was filled in part

@@ -1,4 +1,4 @@
-//! Folders of results: made beside their place, and put there in one step.
+//! Folders of results: built beside their final place, and moved there in one step.
 
 use crate::record::{Record, Request};
 use crate::{Progress, TaskError};
@@ -6,8 +6,8 @@ use serde::Serialize;
 use std::path::Path;
 use unripple_store::OutputDir;
 
-/// An output folder under construction beside its place, if there is one, and the record of what is about to fill it. It replaces no
-/// file or folder that the request reads.
+/// Begins an output folder, built beside its final `place`, and the record of the run that fills it; `None`
+/// without a place. The folder must not replace a file or folder that the request reads.
 ///
 /// # Errors
 /// Those of [`OutputDir::create_beside`] and [`Record::of`].
@@ -15,7 +15,8 @@ pub fn begin<A: Request>(place: Option<&Path>, ask: &A) -> Result<Option<(Output
     place.map(|place| Ok((OutputDir::create_beside(place, &ask.reads())?, Record::of(ask)?))).transpose()
 }
 
-/// Puts an output folder in its place unless the task is cancelled, and says so if it replaced an earlier run's.
+/// Moves an output folder to its final place unless the task is cancelled, and tells `progress` its path
+/// and whether it replaced an earlier run.
 ///
 /// # Errors
 /// [`TaskError::Cancelled`]; those of [`OutputDir::commit`].
@@ -36,7 +37,7 @@ pub fn finish(out: OutputDir, progress: &mut dyn Progress) -> Result<(), TaskErr
     Ok(())
 }
 
-/// A report as indented JSON.
+/// Converts a report to indented JSON.
 ///
 /// # Errors
 /// [`TaskError::Work`] of what JSON cannot hold.

@@ -7,8 +7,8 @@ use unripple::core::{Outline, Point};
 /// Largest number of points of a grid: a finer pitch is taken for a mistake of unit, and its responses would take terabytes.
 const MOST: f64 = 1e6;
 
-/// The multiples of `pitch` (m) along both axes that lie inside an outline, at least a quarter of the pitch from its rim:
-/// row by row from the bottom.
+/// Points of a square grid (spacing `pitch`, in m) that lie inside an outline, at least a quarter of the
+/// spacing from its rim: row by row from the bottom.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of more than a million points, or none.
@@ -36,7 +36,8 @@ pub fn points(outline: &Outline, pitch: f64) -> Result<Vec<Point>, TaskError> {
     if found.is_empty() { Err(refuse("none inside the rim".into())) } else { Ok(found) }
 }
 
-/// The points of a grid of some pitch (m), if one is given, followed by single places.
+/// The points of a square grid with spacing `pitch` (m), if there is one, followed by the single points
+/// `at`.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of a pitch that gives no grid, and of a place beyond the edge.

@@ -1,4 +1,4 @@
-//! Responses from the model of a surface, and figures of a drive's field on it.
+//! Responses from the model of a surface, and evaluation of a drive's field on it.
 
 use crate::{Progress, Solved, TaskError, go_on};
 use unripple::act;
@@ -7,13 +7,15 @@ use unripple::field::{Aim, Field};
 
 pub use unripple::act::{CELLS, JUDGED_BANDS, Judged, Judging, Note, Reached, accuracy, reached};
 
-/// The stage in which the responses are computed that a drive is evaluated on.
+/// Name of the stage that computes the responses on which a drive is evaluated.
 pub(crate) const RESPONSES: &str = "responses for evaluation";
 
-/// A field longer than this, in seconds, takes long enough to measure that people should see it.
+/// Length of a field, in seconds, above which its evaluation takes so long that it is reported as a
+/// separate stage.
 const LONG: f64 = 0.2;
 
-/// Responses of a surface computed from its modes, up to `max_hz` (Hz) or by default those of its band, under resting fingers.
+/// Computes the responses of a surface from its modes up to `max_hz` (Hz; by default the top of its band),
+/// with fingers resting at `contacts`.
 ///
 /// # Errors
 /// Those of [`act::model`].
@@ -23,14 +25,15 @@ pub fn model(surface: &Surface, max_hz: Option<f64>, contacts: &[Contact]) -> Re
 
 /// Responses of a surface that a drive is evaluated on, all from modes up to the same frequency.
 pub struct Models {
-    /// Those without fingers on the surface.
+    /// Responses without fingers on the surface.
     pub free: Responses,
-    /// Those under the resting fingers, if there are any.
+    /// Responses with fingers resting on the surface; `None` if there are no fingers.
     pub under: Option<Responses>,
 }
 
-/// The responses that a drive is evaluated on, and how far their modes go: up to `asked` (Hz), or by default as [`Judging::of`] says.
-/// What has been `solved` before is not computed again.
+/// Computes the responses that a drive is evaluated on, from modes up to `asked` (Hz) or by default up to
+/// the frequency that [`Judging::of`] chooses, and returns that choice too. What the cache `solved` holds
+/// is not computed again.
 ///
 /// # Errors
 /// Those of [`act::model`].
@@ -51,8 +54,8 @@ pub fn models(
     Ok((models, judging))
 }
 
-/// Refuses a highest frequency (Hz) of the modes to evaluate a drive on that is below the band of a surface, or above what its sample rate
-/// carries, before there are modes.
+/// Returns an error if `judge_hz`, the highest frequency (Hz) of the modes that a drive is evaluated on, is
+/// below the top of the surface's band, or not below half its sample rate.
 pub(crate) fn reaches(surface: &Surface, judge_hz: Option<f64>) -> Result<(), TaskError> {
     let (top, carried) = (surface.emission.band[1], 0.5 * surface.emission.rate);
     match judge_hz.filter(|hz| !(top..carried).contains(hz)) {
@@ -67,8 +70,8 @@ pub(crate) fn reaches(surface: &Surface, judge_hz: Option<f64>) -> Result<(), Ta
     }
 }
 
-/// Evaluates the field of a drive at the aims, which are places and instants. `period` (s) is that of a repeated drive. Traces end at
-/// `until` (s), or where the field is no longer known.
+/// Evaluates the field of a drive at the places and instants `aims`; `period` (s) is that of a repeated
+/// drive. Traces end at `until` (s), or where the field is no longer known.
 ///
 /// # Errors
 /// Those of [`act::judge`]; [`TaskError::Cancelled`].
@@ -83,7 +86,8 @@ pub fn judge(
     seen(until.min(act::known(field)), progress, || act::judge(surface, field, aims, period, until))
 }
 
-/// Runs `work` on a field of `length` (s), and reports it as a stage of its own if the field is long (above 0.2 s).
+/// Runs `work`, which evaluates `length` seconds of a field, and reports it to `progress` as a separate
+/// stage if `length` is above 0.2 s.
 ///
 /// # Errors
 /// Those of the work; [`TaskError::Cancelled`].

@@ -1,4 +1,4 @@
-//! The sentence about a probe's own delay, for reports and logs.
+//! The sentence about a probe's delay relative to the sensors, for reports and logs.
 
 /// Sentence that says that the probe's delay (s) relative to the sensors was found and corrected.
 pub fn comes(delay: f64) -> String {

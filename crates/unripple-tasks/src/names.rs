@@ -1,11 +1,11 @@
-//! Focusing methods and interpolations by name, for the fields of asks.
+//! Focusing methods and interpolations by name, for the fields of requests.
 
 /// Reads and writes a focusing method by its name, for `#[serde(with)]`.
 pub mod method {
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
     use unripple::focus::Method;
 
-    /// Writes the name.
+    /// Writes the name of a focusing method.
     ///
     /// # Errors
     /// Those of the serializer.
@@ -13,7 +13,7 @@ pub mod method {
         to.serialize_str(method.name())
     }
 
-    /// Reads a name.
+    /// Reads a focusing method by its name.
     ///
     /// # Errors
     /// If no method has that name.
@@ -21,7 +21,7 @@ pub mod method {
         named(&String::deserialize(from)?)
     }
 
-    /// The method of a name, or the error that there is none.
+    /// The method that has a name, or an error if there is none.
     pub(super) fn named<E: Error>(name: &str) -> Result<Method, E> {
         let found = Method::ALL.into_iter().find(|method| method.name() == name);
         found.ok_or_else(|| {
@@ -37,7 +37,7 @@ pub mod methods {
     use serde::{Deserialize, Deserializer, Serializer};
     use unripple::focus::Method;
 
-    /// Writes the names.
+    /// Writes the names of focusing methods, as a list.
     ///
     /// # Errors
     /// Those of the serializer.
@@ -45,7 +45,7 @@ pub mod methods {
         to.collect_seq(methods.iter().map(|method| method.name()))
     }
 
-    /// Reads a list of names.
+    /// Reads a list of focusing methods by their names.
     ///
     /// # Errors
     /// If no method has one of those names.
@@ -61,7 +61,7 @@ pub mod interpolation {
 
     const ALL: [Interpolation; 3] = [Interpolation::Nearest, Interpolation::Linear, Interpolation::Kernel];
 
-    /// Writes the name.
+    /// Writes the name of an interpolation.
     ///
     /// # Errors
     /// Those of the serializer.
@@ -69,7 +69,7 @@ pub mod interpolation {
         to.serialize_str(way.name())
     }
 
-    /// Reads a name.
+    /// Reads an interpolation by its name.
     ///
     /// # Errors
     /// If no interpolation has that name.

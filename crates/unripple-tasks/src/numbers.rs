@@ -2,7 +2,7 @@
 
 use crate::TaskError;
 
-/// A finite number above 0, or an error that names its field and unit.
+/// Returns `value` if it is finite and above 0, else an error that names its field and unit.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of any other number.
@@ -13,10 +13,11 @@ pub fn above_zero(value: f64, field: &'static str, unit: &str) -> Result<f64, Ta
     }
 }
 
-/// The field of a relative accuracy, here and in surface files.
+/// Name of the field for the relative accuracy of natural frequencies, in requests and in surface files.
 pub const ACCURACY: &str = "accuracy";
 
-/// A relative accuracy of natural frequencies as the solvers of modes take it, or an error that names its field.
+/// Returns `value` if the solvers of modes accept it as a relative accuracy of natural frequencies, else an
+/// error that names the field.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of any other number.

@@ -1,4 +1,5 @@
-//! Own points of a library: points at the actuators, measured by the actuators' own sensors. Figures use them as velocities.
+//! Own points of a library: points at the actuators, measured by the actuators' own sensors, and their
+//! conversion to velocities.
 
 use crate::TaskError;
 use serde_json::{Value, json};
@@ -7,20 +8,22 @@ use unripple::physics::{Sensor, sensors};
 use unripple_calibrate::measure::MeasureOptions;
 use unripple_store::{Library, LibraryPlan, PointState, Quality};
 
-/// Key of the library's log entry that says what own points hold: sensor signals. Without that entry they hold velocities.
+/// Key of the log entry of libraries whose points at the actuators hold sensor signals; without this entry
+/// they hold velocities.
 pub const KEY: &str = "own_points";
 
-/// A point this near to an actuator, in metres, is the actuator's own, if it is the last one there. Places are
-/// written in files to a nanometre, so that rounding stays below it.
+/// Distance in metres within which a library's last point near an actuator counts as lying at it. Places
+/// are written in files to a nanometre, so that rounding stays below it.
 const SAME: f64 = 1e-6;
 
-/// Value of the log entry [`KEY`] of a library in which the points at the actuators of this surface hold sensor signals: their units.
+/// Value of the log entry [`KEY`]: states that points at the surface's actuators hold sensor signals, and
+/// the units of these.
 pub fn told(surface: &Surface) -> Result<Value, TaskError> {
     let units: Vec<&str> = sensing(surface)?.iter().map(|sensor| sensor.unit).collect();
     Ok(json!({ "hold": "what sensors heard", "units": units }))
 }
 
-/// Noise over signal, as a ratio of amplitudes; `None` where it is not known.
+/// Ratio of noise to signal amplitude; `None` if it is not known.
 pub fn noise(quality: &Quality) -> Option<f64> {
     let db = quality.signal_to_noise_db;
     db.is_finite().then(|| 10f64.powf(-db / 20.0))
@@ -31,8 +34,9 @@ pub fn sensing(surface: &Surface) -> Result<Vec<Sensor>, TaskError> {
     sensors(surface).map_err(TaskError::input)
 }
 
-/// Converts a sensor's responses to velocities (m/s) under its contact; `heard` holds one response after the other, `plan.samples` samples
-/// each. `None` for a patch, which senses the sheet's bending, and for an exciter, which hardly senses motion below its resonance.
+/// Converts a sensor's responses to velocities (m/s) of the sheet under the sensor; `heard` holds one
+/// response after the other, `plan.samples` samples each. `None` for a patch, which senses the sheet's
+/// bending, and for an exciter, which hardly senses motion below its resonance.
 pub fn velocities(sensor: &Sensor, heard: &[f32], plan: &LibraryPlan, surface: &Surface) -> Option<Vec<f32>> {
     let rows = heard.chunks_exact(plan.samples);
     let rows: Vec<Vec<f64>> = rows.map(|row| row.iter().map(|h| f64::from(*h)).collect()).collect();
@@ -42,8 +46,9 @@ pub fn velocities(sensor: &Sensor, heard: &[f32], plan: &LibraryPlan, surface: &
     Some(rows.into_iter().flatten().map(|v| v as f32).collect())
 }
 
-/// The responses of a library as velocities at all points. An own point is left out if its sensor is a patch or an exciter, and all own
-/// points if the sensors' scale differs from the probe's: figures over all points would mix quantities.
+/// Converts the responses of a library to velocities at all points. A point at an actuator is left out if
+/// its sensor is a patch or an exciter; all of them are left out if the sensors' scale differs from the
+/// probe's, since metrics over all points would mix quantities.
 pub fn as_velocities(
     library: &Library,
     surface: &Surface,

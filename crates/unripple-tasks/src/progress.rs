@@ -21,20 +21,22 @@ use unripple::core::{Observed, Observer};
 /// assert!(matches!(design::run(&design::Ask::default(), &mut Gone), Err(TaskError::Cancelled)));
 /// ```
 pub trait Progress {
-    /// Reports that a stage begins; `_what` says in words what is done in it.
+    /// Reports that a stage of the task begins; `_what` describes the stage in words.
     fn stage(&mut self, _what: &str) {}
 
     /// Reports the share of the stage that is done, from 0 to 1.
     fn done(&mut self, _share: f64) {}
 
-    /// Reports that the last stage is over and none follows: the task now lasts as long as people like, such as playing.
+    /// Reports that the last stage is over; from then on the task runs until its user stops it, as when
+    /// playing.
     fn over(&mut self) {}
 
-    /// Shows people a line at once, such as a warning.
+    /// Shows the user a line of text immediately, such as a warning.
     fn tell(&mut self, _line: &str) {}
 
-    /// Whom long computations within a stage tell their parts and shares, from any thread, where [`observed`] runs the task; nobody by
-    /// default. The parts of a stage are shown with its name before them.
+    /// Observer to which long computations within a stage report their parts and progress, from any thread,
+    /// while [`observed`] runs the task; `None` by default. The parts of a stage are shown with its name
+    /// before them.
     fn observer(&self) -> Option<Arc<dyn Observer>> {
         None
     }
@@ -44,8 +46,8 @@ pub trait Progress {
         false
     }
 
-    /// Performs `put`, which cannot be undone, such as moving results to their place, unless the task has been cancelled. After a
-    /// cancellation either all of it is done or nothing.
+    /// Runs `put`, an action that cannot be undone, such as moving results to their place, unless the task
+    /// has been cancelled. A cancellation never leaves it done in part.
     ///
     /// # Errors
     /// [`TaskError::Cancelled`], and those of `put`.
@@ -60,14 +62,14 @@ pub struct Silent;
 
 impl Progress for Silent {}
 
-/// Does work whose long computations tell the progress of their parts, as far as it has [an observer](Progress::observer): the meshes of an
-/// outline, the shares of a spectrum.
+/// Runs `work` so that its long computations, such as meshing or solving for eigenvalues, report their
+/// progress to [the observer](Progress::observer), if there is one.
 pub fn observed<T>(progress: &mut dyn Progress, work: impl FnOnce(&mut dyn Progress) -> T) -> T {
     let observed = Observed::by(progress.observer());
     observed.during(|| work(progress))
 }
 
-/// A part of a stage, in words.
+/// Text that names a part of a stage, as `stage: part`, or the part alone if `stage` is empty.
 pub fn part_of(stage: &str, part: &str) -> String {
     if stage.is_empty() { part.to_owned() } else { format!("{stage}: {part}") }
 }

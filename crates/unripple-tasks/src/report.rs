@@ -5,7 +5,8 @@ use serde::Serialize;
 /// The JSON schema (draft 2020-12) of the reports of all commands, with the records of their runs, for programs and editors that read them.
 pub const REPORT_SCHEMA: &str = include_str!("../schema/report-1.json");
 
-/// Name of that schema in records, that of its file. The number changes if a key is removed or comes to mean something else.
+/// Name of [`REPORT_SCHEMA`] in records: its file name without the ending. The number changes if a key is
+/// removed or comes to mean something else.
 pub(crate) const SCHEMA_NAME: &str = "report-1";
 
 /// Results of a task: serialised for programs, with keys in SI units, and as text for people.

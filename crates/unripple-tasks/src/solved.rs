@@ -1,16 +1,16 @@
-//! Responses and windows that have been computed from modes, kept for whoever needs the same ones again.
+//! Cache of responses and windows that were computed from modes.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use unripple::act::{self, ActError};
 use unripple::core::{Contact, Responses, Surface};
 use unripple::physics::design::{Recommended, Windows};
 
-/// How many are kept: those of the band, those up to two and three times its top, on which drives are evaluated, and those under fingers.
-/// Twice as many would hold twice the memory.
+/// Number of sets of responses in the cache: those of the band, those up to two and three times its top, on
+/// which drives are evaluated, and those under fingers. Twice as many would hold twice the memory.
 const KEPT: usize = 4;
 
-/// Responses of surfaces, computed from their modes, of which the last four are kept, and the windows of the last surface. Clones share
-/// them.
+/// Cache of the four sets of modal responses used last, of any surface, and of the windows of the last
+/// surface. Clones share the cache.
 ///
 /// ```
 /// use unripple_tasks::Solved;
@@ -26,14 +26,14 @@ const KEPT: usize = 4;
 #[derive(Clone, Debug, Default)]
 pub struct Solved(Arc<Mutex<Kept>>);
 
-/// What has been solved, in the order in which it was needed last.
+/// Contents of the cache, in the order of last use.
 #[derive(Debug, Default)]
 struct Kept {
     models: Vec<Model>,
     windows: Option<(Surface, Windows)>,
 }
 
-/// One set of responses, and what it was computed for.
+/// One set of responses, with the surface, frequency and fingers that it was computed for.
 #[derive(Debug)]
 struct Model {
     surface: Surface,
@@ -44,8 +44,8 @@ struct Model {
 }
 
 impl Solved {
-    /// The responses that [`act::model`] computes, up to `max_hz` (Hz) or by default those of the surface's band, under fingers at
-    /// `contacts`. Those that are kept are returned as they are.
+    /// Responses as [`act::model`] computes them, from modes up to `max_hz` (Hz; by default the top of the
+    /// surface's band), with fingers at `contacts`; returned from the cache if they are in it.
     ///
     /// # Errors
     /// Those of [`act::model`].
@@ -71,7 +71,8 @@ impl Solved {
         Ok(responses)
     }
 
-    /// The default window of a surface with some responses, as [`act::chosen_window`] gives it.
+    /// Default focusing window for a surface and its responses, as [`act::chosen_window`] computes it; the
+    /// part that depends on the surface alone is cached.
     pub fn window(&self, surface: &Surface, responses: &Responses) -> Recommended {
         let kept = self.kept().windows.clone().filter(|(known, _)| known == surface);
         let (_, windows) = kept.unwrap_or_else(|| {

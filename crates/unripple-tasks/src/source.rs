@@ -11,30 +11,31 @@ use unripple_store::{Library, surface_files};
 /// Input of a task: a surface, whose responses are computed, or a library of stored responses. Clones share the responses.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// The surface; for a library, the one that it was made for.
+    /// The surface; for a library, the surface that it was measured or computed for.
     pub surface: Surface,
     /// The stored responses, if the input is a library.
     pub stored: Option<Stored>,
-    /// Responses of the surface that were computed before, if they are to be used instead of those of its band.
+    /// Responses computed earlier, to be used for the surface; `None` to compute those of the modes in its
+    /// band.
     pub computed: Option<Responses>,
-    /// What has been computed from modes, of this surface and of others.
+    /// Cache of responses and windows computed from modes, for this surface and others.
     pub solved: Solved,
 }
 
 /// Responses of a library, with remarks on them.
 #[derive(Clone, Debug)]
 pub struct Stored {
-    /// Responses of the finished points that can be read.
+    /// Responses at the finished points of the library whose files can be read.
     pub responses: SampledResponses,
-    /// Phrase for reports that names the responses from which figures were computed.
+    /// Phrase for reports that names the responses used, such as "the 25 points of film-library".
     pub told: String,
-    /// Notes on what is wrong with the library.
+    /// Notes on faults of the library: doubts, missing actuators, damaged files.
     pub notes: Vec<Note>,
-    /// Reason for which absolute levels are unknown, if they are.
+    /// Reason why absolute levels are unknown; `None` if they are known.
     pub without_scale: Option<String>,
 }
 
-/// What is wrong with a library as a whole, as notes: why it is not to be trusted, what was left out, what is not known of it.
+/// Notes on a library as a whole: doubts, actuators left out, checks not made, unknown scale.
 fn about(library: &Library) -> Vec<Note> {
     let mut notes: Vec<Note> =
         library.doubts().iter().map(|doubt| Note { topic: "doubtful", text: doubt.to_string() }).collect();
@@ -52,7 +53,8 @@ fn about(library: &Library) -> Vec<Note> {
     notes
 }
 
-/// Prints warnings about a library, and returns them as notes: doubts, actuators left out, checks not made, unknown scale.
+/// Reports warnings about a library to `progress`, and returns them as notes: doubts, actuators left out,
+/// checks not made, unknown scale.
 pub fn warn(library: &Library, progress: &mut dyn Progress) -> Vec<Note> {
     let notes = about(library);
     for note in &notes {
@@ -96,7 +98,7 @@ pub fn open_again(ask: &SurfaceAsk) -> Result<Source, TaskError> {
     }
 }
 
-/// The surface that a library was made for.
+/// The surface that a library describes: the one that it was measured or computed for.
 ///
 /// # Errors
 /// [`TaskError::Input`] of a library that does not describe it.
@@ -153,10 +155,10 @@ pub fn reads(ask: &SurfaceAsk) -> Vec<PathBuf> {
     }
 }
 
-/// Phrase that names the responses from which figures were computed, and notes on these responses.
+/// Pair for reports: a phrase that names the responses used, and notes on these responses.
 pub type Told = (String, Vec<Note>);
 
-/// Damaged files named one by one; of more the number is said.
+/// Largest number of damaged files that are named one by one; beyond it, only their number is reported.
 const LISTED: usize = 5;
 
 impl Source {
@@ -170,12 +172,12 @@ impl Source {
         Self { computed: Some(responses), ..Self::of(surface) }
     }
 
-    /// Sampled responses, with the surface that they are of.
+    /// Sampled responses, with the surface that they belong to.
     pub fn sampled(surface: Surface, stored: Stored) -> Self {
         Self { stored: Some(stored), ..Self::of(surface) }
     }
 
-    /// The same, where what others have solved is not computed again.
+    /// This source with the cache `solved` of responses and windows, whose contents are not computed again.
     #[must_use]
     pub fn with(self, solved: &Solved) -> Self {
         Self { solved: solved.clone(), ..self }
@@ -186,13 +188,14 @@ impl Source {
         self.stored.as_ref().map(|stored| stored.responses.conditions.lambda_min)
     }
 
-    /// Reason for which absolute lengths and velocities are unknown, if they are.
+    /// Reason why absolute displacements and velocities are unknown; `None` if they are known.
     pub fn without_scale(&self) -> Option<String> {
         self.stored.as_ref().and_then(|stored| stored.without_scale.clone())
     }
 
-    /// The surface and its responses: those that were computed before, or those within the band; for a library also a phrase and notes about
-    /// its responses. A library's responses are completed by interpolation (`way`) at `places`, in m.
+    /// Returns the surface and its responses: those computed earlier or stored, or else those of the modes
+    /// in its band; for a library also a phrase and notes about its responses. A library's responses are
+    /// completed by interpolation (`way`) at `places`, in m.
     pub fn respond(
         self,
         places: &[Point],
@@ -212,7 +215,8 @@ impl Source {
         }
     }
 
-    /// Refuses fields that need a model if the input is a library. Each field is its name and whether it was given.
+    /// Returns an error if the source is a library and a field of the request is set that needs a model.
+    /// `fields` are pairs of a field's name and whether it is set.
     ///
     /// # Errors
     /// [`TaskError::Ask`] that names the first of them.

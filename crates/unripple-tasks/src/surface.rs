@@ -1,4 +1,4 @@
-//! A surface as a request names it: by its name, its file or its text.
+//! A surface in a request: by its name, its file or its text.
 
 use crate::TaskError;
 use serde::{Deserialize, Serialize};
@@ -6,31 +6,35 @@ use std::collections::BTreeMap;
 use unripple::core::Surface;
 use unripple_store::{Library, load_surface_with, parse_surface};
 
-/// A surface, given by the name of a built-in surface or file, by such a name with changed keys, or as the text of a surface file.
+/// A surface in a request: the name of a built-in surface or of a file, such a name with changed keys, or
+/// the text of a surface file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum SurfaceAsk {
-    /// The name of a built-in surface, or the path of a surface file; for tasks that take one, of a library.
+    /// The name of a built-in surface, or the path of a surface file; for tasks that accept a library of
+    /// responses, also its path.
     Name(String),
     /// A surface by its name, with keys of its file set to other values.
     Set {
         /// The name of a built-in surface, or the path of a surface file.
         name: String,
-        /// New values, written as in the file, by the paths of their keys: `sheet.tension_n_per_m`. An empty value removes the key.
+        /// New values by the paths of their keys, such as `sheet.tension_n_per_m`, written as in the file.
+        /// An empty value removes the key.
         set: BTreeMap<String, String>,
     },
     /// The text of a surface file.
     Text {
-        /// The text itself, as TOML.
+        /// Text of the surface file, in TOML.
         toml: String,
-        /// What the surface was called when it was read, for messages; "surface" if absent.
+        /// Name of the surface in error messages, such as that of the file it was read from; "surface" if
+        /// absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         name: Option<String>,
     },
 }
 
 impl Default for SurfaceAsk {
-    /// The paper's own surface.
+    /// The surface of the paper, `hudin-2012`.
     fn default() -> Self {
         Self::Name("hudin-2012".into())
     }
@@ -58,7 +62,7 @@ impl std::fmt::Display for SurfaceAsk {
 }
 
 impl SurfaceAsk {
-    /// The keys that are set to other values.
+    /// Pairs of the keys that are set to other values and these values.
     pub(crate) fn keys(&self) -> Vec<(String, String)> {
         match self {
             Self::Set { set, .. } => set.iter().map(|(key, value)| (key.clone(), value.clone())).collect(),

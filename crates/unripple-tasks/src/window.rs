@@ -5,19 +5,20 @@ use unripple::act;
 use unripple::core::{Conditions, Surface};
 use unripple::physics::Medium;
 
-/// Rate, band and region of the responses that a surface will have.
+/// Sample rate, band, shortest wavelength and outline of a surface's responses, known before they are
+/// computed.
 pub(crate) fn conditions(surface: &Surface) -> Conditions {
     let (rate, band) = (surface.emission.rate, surface.emission.band);
     let lambda_min = Medium::of(&surface.sheet).lambda_min(band[1]);
     Conditions { rate, band, lambda_min, outline: surface.outline.clone() }
 }
 
-/// Refuses a time that no wave of the band fits into, naming the field that makes it longer.
+/// Returns an error if no wave of the band fits into `seconds`; it names `field`, which sets that time.
 pub(crate) fn carries(conditions: &Conditions, seconds: f64, field: &str) -> Result<(), TaskError> {
     act::carries(conditions, seconds).map_err(|error| TaskError::Work(format!("`{field}`: {error}")))
 }
 
-/// Adds to an error about the window, if it is the default one (not `asked` for), the name of the field that sets
+/// Adds to an error about the default window (when none was `asked` for) the name of the field that sets
 /// another.
 pub(crate) fn of_window(error: TaskError, asked: bool) -> TaskError {
     let told = |text: String| match !asked && text.contains("window") && !text.contains("window_s") {

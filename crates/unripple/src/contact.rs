@@ -10,11 +10,12 @@ use unripple_physics::Footprint;
 pub struct Touch {
     /// Centre of the contact, in metres.
     pub at_m: [f64; 2],
-    /// Largest magnitude of the velocity, the mean over the contact disc, in m/s.
+    /// Largest magnitude of the velocity averaged over the contact disc, in m/s.
     pub peak_velocity_m_s: f64,
-    /// Largest magnitude of the displacement, the mean over the contact disc, in metres.
+    /// Largest magnitude of the displacement averaged over the contact disc, in metres.
     pub peak_displacement_m: f64,
-    /// Largest magnitude of the force on the finger, μv̇ + βv + κu, in N.
+    /// Largest magnitude of the force on the finger, μv̇ + βv + κu, in N, with the finger's mass μ, damping
+    /// β and stiffness κ.
     pub peak_force_n: f64,
     /// Largest power into the finger, force times velocity, in W.
     pub peak_power_w: f64,

@@ -4,14 +4,15 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple_tasks::record::Request;
 
-/// Options of `reproduce`: number of placements, and folder for the page.
+/// Options of `reproduce`: number of random placements of actuators and targets, and folder for the page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
     /// Folder for the page and its figures; without it only the numbers are computed. An existing folder is
     /// replaced as a whole, but only if it holds nothing but the unchanged files of an earlier run.
     pub output: Option<PathBuf>,
-    /// Number of placements averaged in the statistics of contrast, 2 to 10 000.
+    /// Number of random placements of actuators and targets over which statistics of contrast are averaged,
+    /// 2 to 10 000.
     pub placements: usize,
 }
 

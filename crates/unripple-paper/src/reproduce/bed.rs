@@ -11,7 +11,7 @@ pub struct Bed {
     pub surface: Surface,
     /// Responses of the film, mode by mode, in the band.
     pub responses: Responses,
-    /// Samples per second.
+    /// Sample rate, in Hz.
     pub rate: f64,
     /// The paper's window T, in seconds.
     pub window: f64,
@@ -20,7 +20,8 @@ pub struct Bed {
 }
 
 impl Bed {
-    /// The built-in surface `hudin-2012`.
+    /// The built-in surface `hudin-2012` with its responses, the paper's window and the target of a single
+    /// focus.
     pub fn new() -> Result<Self, TaskError> {
         let surface = unripple_store::load_surface("hudin-2012")?;
         let responses = judge::model(&surface, None, &[])?;

@@ -9,12 +9,12 @@ use unripple::core::{Outline, Surface};
 use unripple_plot::{Axis, Figure, Ink, Layer, Line, Mark, Plot, Points};
 use unripple_tasks::TaskError;
 
-/// Windows simulated, in seconds; the bed's is among them.
+/// Simulated windows, in seconds; the paper's window is among them.
 const WINDOWS: [f64; 6] = [0.005, 0.010, 0.020, 0.030, 0.060, 0.150];
-/// Numbers of actuators: the fewest, and the paper's own.
+/// Numbers of actuators: the fewest possible, and the paper's.
 const ACTUATORS: [usize; 2] = [1, 8];
 
-/// Contrast on one outline.
+/// Contrast on one outline against the window.
 struct Cavity {
     name: &'static str,
     modes: usize,
@@ -38,7 +38,7 @@ impl Cavity {
     }
 }
 
-/// Section 2: contrast on outlines of equal area, on the same film.
+/// Makes the part of the page on section 2: contrast on outlines of equal area, on the same film.
 pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
     let all = cavities(bed.surface.outline.area())
         .into_iter()

@@ -8,19 +8,19 @@ use unripple::core::CoilDrive;
 use unripple::physics::Medium;
 use unripple_tasks::TaskError;
 
-/// Radius of the contact of a magnet, in metres. It is half the diameter of the light magnet.
+/// Radius of the contact between magnet and film, in metres: half the diameter of the light magnet.
 const CONTACT: f64 = 0.75e-3;
 
-/// Diameter and thickness of a magnet so light that the film hardly feels it, in metres.
+/// Diameter and thickness of a magnet so light that it hardly changes the motion of the film, in metres.
 const MAGNET: [f64; 2] = [1.5e-3, 0.5e-3];
 
 /// Mass of that magnet, in kg: about its volume times 7500 kg/m³, the density of neodymium magnets.
 const MAGNET_MASS: f64 = 7e-6;
 
-/// Frequency at which the film is compared with the coil, in Hz.
+/// Frequency at which the impedance of the film is compared with the damping by the coil, in Hz.
 const HZ: f64 = 1000.0;
 
-/// Section 4: real coils, driven by a current or by a voltage.
+/// Makes the part of the page on section 4 about real coils, driven by a current or by a voltage.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let kinds = kinds();
     let parts: Vec<Coils> = kinds.iter().map(|(_, coils)| *coils).collect();
@@ -45,7 +45,7 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     })
 }
 
-/// Numbers by which the printed force constant is judged.
+/// Numbers that show whether the printed force constant is possible.
 pub(super) fn judged(bed: &Bed) -> Credibility {
     credibility(&Coils::papers(CoilDrive::Voltage), MAGNET, &Medium::of(&bed.surface.sheet), HZ)
 }
@@ -93,7 +93,7 @@ fn text(rows: &[Coiled]) -> String {
     )
 }
 
-/// Text on how a force constant of 6 N/A stands beside the other values.
+/// Text on whether a force constant of 6 N/A agrees with the other values.
 fn doubt(c: &Credibility) -> String {
     format!(
         "The printed force constant of 6 N/A is hard to reconcile with actuators that drive a film. With voltage drive it \

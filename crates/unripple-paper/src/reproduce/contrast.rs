@@ -11,22 +11,22 @@ use unripple::physics::design::Cavity;
 use unripple_plot::{Axis, Dash, Figure, Ink, Layer, Line, Mark, Plot, Points, Rgb, Rule};
 use unripple_tasks::TaskError;
 
-/// Numbers of actuators simulated, in powers of two, since contrast grows with their square root.
+/// Simulated numbers of actuators, in powers of two, since contrast grows with their square root.
 const ACTUATORS: [usize; 6] = [1, 2, 4, 8, 16, 32];
-/// Windows simulated, in seconds: from before the contrast settles to where it no longer grows, about evenly in their
-/// logarithm.
+/// Simulated windows, in seconds: from before the contrast settles to where it no longer grows, about
+/// evenly in their logarithm.
 const WINDOWS: [f64; 8] = [0.005, 0.0075, 0.0125, 0.020, 0.030, 0.050, 0.085, 0.150];
-/// Tops of the band simulated, as shares of the surface's.
+/// Simulated tops of the band, as shares of the top of the surface's band.
 const BANDS: [f64; 7] = [0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
-/// Noise over response simulated, as ratios of rms.
+/// Simulated ratios of the rms noise to the rms response.
 const NOISES: [f64; 7] = [0.03, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2];
-/// Largest number of groups that placements are divided into to find how sure their mean is. Fewer would leave their spread
-/// uncertain, more make groups of too few placements.
+/// Largest number of groups into which placements are divided to find the standard error of their mean.
+/// Fewer would leave their spread uncertain, more make groups of too few placements.
 const GROUPS: usize = 10;
-/// Pieces of a smooth curve: more cannot be seen at the width of a column.
+/// Number of pieces of a smooth curve: more cannot be seen at the width of a column.
 const STEPS: usize = 80;
 
-/// A mean over placements with its standard error, beside the closed forms.
+/// Mean contrast over random placements with its standard error, and the predictions of the closed forms.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Statistic {
     /// Number of actuators N.
@@ -35,11 +35,12 @@ pub struct Statistic {
     pub varied: f64,
     /// Mean of the simulated contrast over placements and targets.
     pub simulated: f64,
-    /// Standard error of that mean.
+    /// Standard error of `simulated`.
     pub error: f64,
-    /// Contrast by the refined closed form.
+    /// Contrast predicted by the refined closed form, [`Cavity`].
     pub predicted: f64,
-    /// Contrast by the plain closed form.
+    /// Contrast predicted by the plain closed form, without the refinements for mode density, mode shapes
+    /// and the first return of waves.
     pub plain: f64,
 }
 
@@ -49,8 +50,8 @@ impl From<StudyError> for TaskError {
     }
 }
 
-/// Repeats a study over groups of placements, each group with a seed of its own; returns means over all placements with
-/// standard errors from the groups.
+/// Repeats a study over groups of placements, each group with its own seed; returns means over all
+/// placements, with standard errors from the spread of the groups.
 pub fn statistics<F>(placements: usize, study: F) -> Result<Vec<Statistic>, TaskError>
 where
     F: Fn(&Sampling) -> Result<Vec<study::Compared>, StudyError>,
@@ -80,7 +81,8 @@ where
     Ok(first.iter().enumerate().map(join).collect())
 }
 
-/// Section 3.1: contrast against window, actuators, bandwidth and noise, simulated and by closed form.
+/// Makes the part of the page on section 3.1: contrast against window, actuators, bandwidth and noise,
+/// simulated and by closed form.
 pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
     let surface = &bed.surface;
     let bench = Bench::of(surface, CELLS)?;
@@ -131,7 +133,7 @@ fn data(windows: &[Statistic], bands: &[Statistic], noises: &[Statistic]) -> Val
     json!({ "against_window_s": windows, "against_band_hz": bands, "against_noise_ratio": noises })
 }
 
-/// The closed form drawn smoothly over the range of some rows.
+/// Smooth line of the closed form `form` over the range of `rows`.
 pub fn curve(rows: &[Statistic], form: impl Fn(f64) -> f64) -> Line {
     let ends = rows.first().zip(rows.last()).map_or([1.0; 2], |(a, b)| [a.varied, b.varied]);
     let place = |i: usize| ends[0] * (ends[1] / ends[0]).powf(i as f64 / STEPS as f64);
@@ -217,7 +219,7 @@ fn at(rows: &[Statistic], actuators: usize, varied: f64) -> Option<Statistic> {
     rows.iter().find(|r| r.actuators == actuators && (r.varied / varied - 1.0).abs() < 1e-9).copied()
 }
 
-/// Exponents of simulation and closed form between two rows, a power of `ratio` apart.
+/// Exponents of simulation and closed form between two rows whose parameters have the ratio `ratio`.
 fn slopes(from: Option<Statistic>, to: Option<Statistic>, ratio: f64) -> Option<[f64; 2]> {
     let (from, to) = (from?, to?);
     let slope = |a: f64, b: f64| (b / a).ln() / ratio.ln();
@@ -255,7 +257,8 @@ fn exponents(windows: &[Statistic], window: f64, heisenberg: f64) -> Vec<Compare
     ]
 }
 
-/// The largest departure of a closed form from simulation, in per cent.
+/// The largest relative deviation of a closed form (selected by `pick`) from the simulation, with its sign,
+/// in per cent.
 pub fn departure(rows: &[Statistic], pick: fn(&Statistic) -> f64) -> f64 {
     let departures = rows.iter().map(|r| 100.0 * (pick(r) / r.simulated - 1.0));
     departures.fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a })

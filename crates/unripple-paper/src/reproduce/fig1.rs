@@ -1,4 +1,4 @@
-//! Fig. 1: record, crop, reverse, refocus.
+//! Fig. 1 of the paper: record, crop, reverse, refocus.
 
 mod panels;
 mod recording;
@@ -20,10 +20,11 @@ use unripple_tasks::TaskError;
 use unripple_tasks::figures::Scene;
 use unripple_tasks::judge::CELLS;
 
-/// Index of the actuator that plays the part of B.
+/// Index of the actuator that takes the place of B in the paper's figure.
 const ACTUATOR: usize = 0;
 
-/// Records, crops, reverses and refocuses with one actuator, and compares the contrast with that of all actuators.
+/// Makes the part of the page on Fig. 1: records, crops, reverses and refocuses with one actuator, and
+/// compares the contrast with that of all actuators.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let modal = modal(&bed.responses)?;
     let b = actuator(modal, ACTUATOR)?;
@@ -90,7 +91,7 @@ fn contrast_of_all(bed: &Bed) -> Result<f64, TaskError> {
     Ok(first(measured.targets)?.contrast.unwrap_or(f64::NAN))
 }
 
-/// Contrast by the closed form with so many actuators, in words.
+/// Contrast by the closed form with `actuators` actuators, as text.
 fn form(bed: &Bed, modal: &ModalResponses, actuators: usize) -> String {
     closed_contrast(bed, modal, actuators).map_or("-".into(), |contrast| format!("{contrast:.1}"))
 }

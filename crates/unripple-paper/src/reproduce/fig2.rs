@@ -1,4 +1,4 @@
-//! Fig. 2: one actuator in a reverberant cavity, and a triangle.
+//! Fig. 2 of the paper: one actuator in a reverberant cavity, and a triangle.
 
 mod focus;
 mod ratio;
@@ -23,22 +23,22 @@ use unripple_tasks::TaskError;
 use unripple_tasks::figures::{Scene, drawn};
 use unripple_tasks::judge::CELLS;
 
-/// Index of the actuator that is the only one.
+/// Index of the only actuator that is driven.
 const ACTUATOR: usize = 0;
 
-/// How many times longer than the paper's film the reverberant one rings.
+/// Decay time of the more reverberant film, relative to that of the paper's film.
 const LONGER: f64 = 5.0;
 
-/// How long after the focus the tail is followed, in seconds.
+/// Time after the focus for which the tail is evaluated, in seconds.
 const FOLLOWED: f64 = 1.2;
 
-/// Length over which the level of the tail is taken, in seconds.
+/// Length over which the rms level of the tail is averaged, in seconds.
 const SMOOTHED: f64 = 5e-3;
 
-/// Level at which the tail counts as over, of the peak.
+/// Level, relative to the peak, below which the tail counts as over.
 const OVER: f64 = 0.01;
 
-/// One focus with one actuator.
+/// A focus of one actuator, with its field and the tail that follows.
 struct Alone {
     tau: f64,
     trace: Vec<f64>,
@@ -70,7 +70,7 @@ impl Alone {
         json!({ "decay_time_s": self.tau, "figures": self.figures, "tail_s": self.over_after(bed) })
     }
 
-    /// Rms over [`SMOOTHED`] round each sample, of the peak.
+    /// Rms velocity over [`SMOOTHED`] seconds around each sample, relative to the peak.
     fn levels(&self, rate: f64) -> Vec<f64> {
         let half = window_samples(SMOOTHED / 2.0, rate);
         let mut sums = vec![0.0];
@@ -85,7 +85,8 @@ impl Alone {
         (0..last).map(level).collect()
     }
 
-    /// How long after the focus the tail's level is last above [`OVER`], in seconds; `None` if that is beyond what is followed.
+    /// Time after the focus at which the tail's level is last above [`OVER`], in seconds; `None` if that is
+    /// beyond the evaluated time.
     fn over_after(&self, bed: &Bed) -> Option<f64> {
         let levels = self.levels(bed.rate);
         let last = levels.iter().rposition(|level| *level > OVER)?;
@@ -101,7 +102,8 @@ fn snapshot(shots: &mut Vec<Snapshot>) -> Result<Snapshot, TaskError> {
     Ok(shots.swap_remove(0))
 }
 
-/// Fig. 2a: one actuator gives a good focus with a short window, followed by a long tail of noise.
+/// Makes the part of the page on Fig. 2a: one actuator gives a good focus with a short window, followed by
+/// a long tail of noise.
 pub fn one_actuator(bed: &Bed) -> Result<Section, TaskError> {
     let modal = modal(&bed.responses)?;
     let papers = Alone::make(bed, modal, 1.0)?;
@@ -234,7 +236,7 @@ fn tail_caption(bed: &Bed, papers: &Alone, ringing: &Alone) -> String {
     )
 }
 
-/// A figure of both films, each with its decay time.
+/// Text with a quantity of both films, each with its decay time.
 fn both(films: [&Alone; 2], of: impl Fn(&Alone) -> String) -> String {
     films.map(|film| format!("{} (τ = {:.0} ms)", of(film), film.tau * 1e3)).join(", ")
 }

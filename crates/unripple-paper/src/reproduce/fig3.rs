@@ -1,4 +1,4 @@
-//! Figure 3: power against frequency for film and glass.
+//! Fig. 3 of the paper: reflection and power against frequency for film and glass.
 
 use super::{Bed, Compared, Picture, Predicted, Section};
 use serde_json::json;
@@ -8,14 +8,14 @@ use unripple::physics::design::{Scattering, Strip, film_strip, glass_strip, tabl
 use unripple_plot::{Axis, Dash, Figure, Ink, Layer, Line, Plot, Rule};
 use unripple_tasks::TaskError;
 
-/// Frequencies shown, in Hz: four decades, with the band of touch within.
+/// Lowest and highest frequency shown, in Hz: four decades that include the band of touch.
 const RANGE: [f64; 2] = [10.0, 1e5];
-/// Points of a curve, a hundred for each decade.
+/// Number of points of a curve, a hundred for each decade.
 const STEPS: usize = 400;
 /// Displacement of the finger in table 1, in metres.
 const DISPLACEMENT: f64 = 10e-6;
 
-/// Fig. 3: reflection and absorption of a wave that meets a finger.
+/// Makes the part of the page on Fig. 3: reflection and absorption of a wave that meets a finger.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let finger = Finger::default();
     let strips = [("glass 1 mm", glass_strip()), ("BoPET 0.125 mm, 2 N", film_strip())];

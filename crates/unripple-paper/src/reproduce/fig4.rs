@@ -1,4 +1,4 @@
-//! Fig. 4: two foci at once, one at 5 Hz and one at 2 Hz.
+//! Fig. 4 of the paper: two foci at once, one repeated at 5 Hz and one at 2 Hz.
 
 mod figures;
 mod repeated;
@@ -14,7 +14,8 @@ use unripple::physics::design::closed;
 use unripple_dsp::rms;
 use unripple_tasks::TaskError;
 
-/// Fig. 4: pulses at E five times and at D twice a second, and the motion elsewhere.
+/// Makes the part of the page on Fig. 4: pulses at point E five times and at point D twice a second, and
+/// the motion elsewhere.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let repeated = Repeated::make(bed)?;
     let point = |p: &Tracked| {

@@ -10,10 +10,11 @@ use unripple_tasks::TaskError;
 /// Radii of the contact, in metres: those of a light to a firm touch of a fingertip.
 const RADII: [f64; 6] = [3e-3, 4e-3, 5e-3, 6e-3, 7e-3, 8e-3];
 
-/// What the paper measured (section 4.3): focus and noise alike.
+/// Attenuation by a finger that the paper measured (section 4.3), for focus and noise alike.
 const PAPERS: f64 = 5.0;
 
-/// Section 4: effect of a finger on the focus under it and on the noise, against the size of the contact.
+/// Makes the part of the page on section 4 about a finger: its effect on the focus under it and on the
+/// noise, against the size of the contact.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let rows = finger(&bed.surface, bed.target, &RADII, bed.window)?;
     let (unaware, aware): (Vec<&Touched>, Vec<&Touched>) = rows.iter().partition(|r| !r.known);

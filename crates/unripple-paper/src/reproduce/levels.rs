@@ -14,14 +14,15 @@ use unripple_plot::{Along, Axis, Dash, Figure, Ink, Layer, Line, Plot, Rgb, Rule
 use unripple_tasks::TaskError;
 use unripple_tasks::judge;
 
-/// The paper's two amplitudes, in metres: what it measured, and what it says scaling up could reach.
+/// The paper's two amplitudes, in metres: the one that it measured, and the one that it says could be
+/// reached by scaling up.
 const LEVELS: [f64; 2] = [40e-6, 200e-6];
 /// Force per current of the paper's actuators, in N/A, as the paper prints it.
 const FORCE_CONSTANT: f64 = 6.0;
 /// Resistance of their coils, in Ω, as the paper prints it.
 const RESISTANCE: f64 = 6.2;
 
-/// What one method does at the drive limit.
+/// The drive of one method at its limit, with the metrics of its field.
 struct Played {
     method: Method,
     drive: Drive,
@@ -30,7 +31,7 @@ struct Played {
     power: f64,
 }
 
-/// What one level takes with one method.
+/// Force and power that one level takes with one method.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct Level {
     method: &'static str,
@@ -39,14 +40,16 @@ struct Level {
     rms_force_n: f64,
     /// Mean heat in all coils over the window with the printed force constant, in W.
     mean_coil_heat_printed_w: f64,
-    /// The same with the force constant within reach of such coils, in W.
+    /// Mean heat in all coils over the window with the largest force constant that such coils can reach, in
+    /// W.
     mean_coil_heat_reachable_w: f64,
     /// Mean mechanical power over the window, in W.
     mean_mechanical_power_w: f64,
     contrast: Option<f64>,
 }
 
-/// The 40 µm and 200 µm cases of section 4: force, power, strain and whether linear theory holds.
+/// Makes the part of the page on the 40 µm and 200 µm cases of section 4: force, power, strain and whether
+/// linear theory holds.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let played = [Method::TimeReversal, Method::OneBit].map(|method| play(bed, method));
     let [reversed, one_bit] = played;
@@ -90,8 +93,8 @@ impl Played {
         self.measured.targets.first().map_or(f64::NAN, |t| t.peak_displacement_m.abs())
     }
 
-    /// The same drive scaled to a displacement in metres, with the heat of coils of the printed force constant and of the `reachable`
-    /// one (N/A).
+    /// The drive scaled to a peak displacement `level` in metres, with the heat of coils of the printed
+    /// force constant and of the `reachable` one (N/A).
     fn at(&self, level: f64, reachable: f64) -> Level {
         let scale = level / self.displacement();
         let (peak, rms) = (self.drive.peak() * scale, self.drive.rms() * scale);

@@ -1,4 +1,5 @@
-//! `reproduce`: the paper's table and figures computed again, beside the printed ones, as one page.
+//! `reproduce`: computes the paper's table and figures again, and shows them beside the printed ones on one
+//! page.
 
 mod ask;
 mod bed;

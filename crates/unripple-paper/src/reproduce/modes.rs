@@ -1,14 +1,15 @@
-//! The film's modes, driven by one port, and the force that the figures on it share.
+//! Modal responses of the film with one actuator, and the largest force that figures of it share.
 
 use super::Bed;
 use unripple::core::{Conditions, Decay, ModalResponses, Port, Responses};
 use unripple::physics::design::closed;
 use unripple_tasks::TaskError;
 
-/// Largest force, in N: far below the film's limit, so that displacement stays below its thickness.
+/// Largest force of an actuator in these figures, in N: far below the film's drive limit, so that the
+/// displacement stays below the film's thickness.
 pub(super) const FORCE: f64 = 10e-3;
 
-/// The modal responses.
+/// The modal responses, or an error if the responses are sampled.
 pub(super) fn modal(responses: &Responses) -> Result<&ModalResponses, TaskError> {
     match responses {
         Responses::Modal(modal) => Ok(modal),
@@ -18,7 +19,7 @@ pub(super) fn modal(responses: &Responses) -> Result<&ModalResponses, TaskError>
     }
 }
 
-/// One of the actuators.
+/// The actuator with this index, or an error if there are fewer.
 pub(super) fn actuator(modal: &ModalResponses, index: usize) -> Result<Port, TaskError> {
     let missing = || {
         TaskError::Work(format!("actuators: expected at least {}, found {}", index + 1, modal.ports.len()))
@@ -26,7 +27,8 @@ pub(super) fn actuator(modal: &ModalResponses, index: usize) -> Result<Port, Tas
     modal.ports.get(index).cloned().ok_or_else(missing)
 }
 
-/// The same surface driven by one ideal point force: a mode takes in at a point what it gives out there.
+/// Responses of the same surface to one ideal point force at `port`; a mode's input weight at a point is
+/// its readout weight there.
 pub(super) fn driven_at(modal: &ModalResponses, port: Port) -> Responses {
     let input = modal.shapes.at_all(&[port.at]);
     Responses::Modal(ModalResponses { ports: vec![port], input, ..modal.clone() })

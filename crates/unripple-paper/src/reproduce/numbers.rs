@@ -9,14 +9,15 @@ use unripple::physics::design::{Nature, PaperFigures};
 use unripple::physics::{Design, Medium, Modes, design};
 use unripple_tasks::TaskError;
 
-/// Highest frequency that the first mode is looked for below, in Hz.
+/// Frequency below which the first mode is searched for, in Hz.
 const LOW: f64 = 300.0;
 /// Relative accuracy of the first mode, far below the digits that the paper prints.
 const ACCURACY: f64 = 1e-6;
 /// The tension that the paper prints, in N/m.
 const PRINTED_TENSION: f64 = 30.0;
 
-/// Section 4: the numbers printed for the paper's membrane, and remarks on its text.
+/// Makes the part of the page on section 4 with the numbers printed for the paper's membrane, and remarks
+/// on its text.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let surface = &bed.surface;
     let design = design(surface).map_err(TaskError::input)?;
@@ -138,7 +139,7 @@ fn modes(
     ]
 }
 
-/// Every remark on the paper's text in a line, misprints first.
+/// Table of all remarks on the paper's text, misprints first.
 fn remarks(paper: &PaperFigures) -> Vec<Vec<String>> {
     let foci = line(
         "names of the foci",

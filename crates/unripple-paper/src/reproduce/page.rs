@@ -12,8 +12,8 @@ const COMPARED: (&str, [&str; 4]) = ("Beside the paper", ["Quantity", "Paper", "
 const PREDICTED: (&str, [&str; 3]) =
     ("Predictions, for which the paper has no figure", ["Quantity", "Here", "How it comes about"]);
 
-/// Least and greatest width on a screen of a millimetre of figure, in rem. Below the least letters are too small for
-/// a screen; above the greatest figures do not fit one.
+/// Least and greatest width on a screen that represents one millimetre of a figure, in rem. Below the
+/// least, letters are too small for a screen; above the greatest, figures do not fit one.
 const LEAST: f64 = 0.2;
 const MOST: f64 = 0.31;
 
@@ -128,7 +128,8 @@ fn html_table(body: &mut String, class: &str, rows: &[Vec<String>]) {
     *body += "</tbody></table></div>\n";
 }
 
-/// Comparisons and predictions of a section, where it has them: heading, class and table, whose first row are its headings.
+/// Tables of a section's comparisons and predictions, if it has any: heading, class and rows, the first of
+/// which has the column headings.
 fn facing(section: &Section) -> Vec<(&'static str, &'static str, Vec<Vec<String>>)> {
     let table = |columns: &[&str], rows: Vec<Vec<String>>| {
         let columns: Vec<String> = columns.iter().map(|column| (*column).to_owned()).collect();
@@ -148,7 +149,7 @@ fn facing(section: &Section) -> Vec<(&'static str, &'static str, Vec<Vec<String>
     tables
 }
 
-/// A title as the name of a place in the page.
+/// A title as an anchor in the page.
 fn anchor(title: &str) -> String {
     let words = title.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     words.map(str::to_lowercase).collect::<Vec<_>>().join("-")

@@ -9,10 +9,10 @@ use unripple::physics::design::{Cavity, closed};
 use unripple_plot::{Axis, Dash, Figure, Ink, Layer, Line, Mark, Plot};
 use unripple_tasks::TaskError;
 
-/// Periods simulated, as multiples of the surface's decay time.
+/// Simulated periods, as multiples of the surface's decay time.
 const PERIODS: [f64; 9] = [0.25, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0];
 
-/// One surface's statistics and closed forms.
+/// Statistics and closed form of the film with one decay time.
 struct Case {
     decay_time: f64,
     rows: Vec<Statistic>,
@@ -21,7 +21,8 @@ struct Case {
     modes: f64,
 }
 
-/// Section 3.2: contrast of a repeated focus, with the surface's decay time and with the one that the paper aims for.
+/// Makes the part of the page on section 3.2: contrast of a repeated focus, with the surface's decay time
+/// and with the one that the paper recommends.
 pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
     let own = &bed.surface;
     let actuators = own.actuators.len();

@@ -10,18 +10,18 @@ pub use super::section::{Compared as ComparedReport, Predicted as PredictedRepor
 /// Report of `reproduce`: the paper's results beside the computed ones.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// Number of placements averaged in the statistics of contrast.
+    /// Number of random placements of actuators and targets over which statistics of contrast are averaged.
     pub placements: usize,
-    /// One for each figure, table or section of the paper, in its order.
+    /// Sections of the page, one for each figure, table or section of the paper, in the paper's order.
     pub sections: Vec<SectionReport>,
 }
 
-/// One part of the page.
+/// One section of the page.
 #[derive(Clone, Debug, Serialize)]
 pub struct SectionReport {
     /// Part of the paper that the section is about.
     pub title: String,
-    /// Paragraphs, in plain words.
+    /// Paragraphs of the section's text.
     pub text: Vec<String>,
     /// Numbers of the paper beside the computed ones.
     pub compared: Vec<Compared>,
@@ -29,9 +29,9 @@ pub struct SectionReport {
     pub predicted: Vec<Predicted>,
     /// A table of computed results, as rows of cells; headings first.
     pub table: Vec<Vec<String>>,
-    /// Figures of this part.
+    /// Figures of the section.
     pub figures: Vec<FigureReport>,
-    /// Numbers of the section, SI units; `null` for none.
+    /// Numbers of the section as JSON, in SI units; `null` if there are none.
     pub data: Value,
 }
 

@@ -1,4 +1,4 @@
-//! The run of `reproduce`: the paper's experiments one after the other.
+//! Runs `reproduce`: the paper's experiments one after the other.
 
 use super::{
     Ask, Bed, Report, Section, cavities, coils, contrast, fig1, fig2, fig3, fig4, finger, levels, numbers,
@@ -6,13 +6,14 @@ use super::{
 };
 use unripple_tasks::{Progress, TaskError, figures, folder, go_on};
 
-/// Fewest placements whose mean has a standard error.
+/// Least number of placements: the mean of a single one has no standard error.
 const FEWEST: usize = 2;
 
 /// Largest number of placements: their standard errors are 22 times below those of the default. Twice as many take hours more.
 const MOST: usize = 10_000;
 
-/// Computes the paper's figures, table and numbers again, and writes them as one page if a folder is given.
+/// Computes the paper's figures, table and numbers again, and writes them as one page if the request names
+/// a folder.
 ///
 /// # Errors
 /// [`TaskError::Ask`] for fewer than two placements or more than 10 000; those of writing the folder; [`TaskError::Cancelled`];
@@ -44,7 +45,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(report)
 }
 
-/// Makes one section.
+/// Function that makes one section from the paper's surface and the number of placements.
 type Maker = fn(&Bed, usize) -> Result<Section, TaskError>;
 
 /// Every section in the paper's order.

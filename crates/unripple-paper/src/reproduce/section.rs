@@ -1,8 +1,8 @@
-//! One section of the page: a figure, table or section of the paper beside the computed one.
+//! A section of the page: a figure, table or section of the paper beside the computed one.
 
 use unripple_plot::Figure;
 
-/// One part of the page: a figure, table or section of the paper beside the computed one.
+/// A section of the page: a figure, table or section of the paper beside the computed one.
 #[derive(Debug, Default)]
 pub struct Section {
     /// Part of the paper that the section is about, as in `Fig. 2b`.
@@ -15,9 +15,9 @@ pub struct Section {
     pub predicted: Vec<Predicted>,
     /// A table of computed results, as rows of cells; headings first.
     pub table: Vec<Vec<String>>,
-    /// Paragraphs, in plain words.
+    /// Paragraphs of the section's text.
     pub text: Vec<String>,
-    /// Numbers of the section as JSON, in SI units; `null` for none.
+    /// Numbers of the section as JSON, in SI units; `null` if there are none.
     pub data: serde_json::Value,
 }
 
@@ -57,9 +57,9 @@ pub struct Compared {
     pub what: String,
     /// Value in the paper.
     pub paper: String,
-    /// Value found here.
+    /// Value that this program computes.
     pub here: String,
-    /// Reason for which they differ, or that they agree.
+    /// Why the paper's value and the computed one differ, or that they agree.
     pub why: String,
 }
 
@@ -75,12 +75,12 @@ impl Compared {
     }
 }
 
-/// A quantity as computed here, for which the paper has no figure.
+/// A computed quantity for which the paper has no number.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Predicted {
     /// Name of the quantity.
     pub what: String,
-    /// Value found here.
+    /// Value that this program computes.
     pub here: String,
     /// How the value comes about, or what to compare it with.
     pub why: String,

@@ -7,10 +7,11 @@ use unripple::core::Finger;
 use unripple::physics::design::{Touch, glass_strip, table1};
 use unripple_tasks::TaskError;
 
-/// Displacement of the finger, in metres: the paper's own.
+/// Displacement of the finger in the paper, in metres.
 const DISPLACEMENT: f64 = 10e-6;
 
-/// Table 1: the power that moves a fingertip by 10 µm, through glass and through film.
+/// Makes the part of the page on table 1: the power that moves a fingertip by 10 µm, through glass and
+/// through film.
 pub fn section(_: &Bed) -> Result<Section, TaskError> {
     let touches = table1();
     let data = serde_json::to_value(&touches).map_err(TaskError::work)?;
@@ -46,7 +47,7 @@ fn ratio(touches: &[Touch]) -> Option<Compared> {
     ))
 }
 
-/// What the glass takes at the film's frequency in place of its wavelength.
+/// Text on the power that glass takes at the film's frequency instead of at the film's wavelength.
 fn same_frequency(film: &Touch) -> String {
     let (glass, hz) = (glass_strip(), film.frequency_hz);
     let power = glass.power(&Finger::default(), glass.wavenumber(hz), DISPLACEMENT);

@@ -81,7 +81,8 @@ impl Bench {
         Self::with(surface, Arc::new(modes), cells)
     }
 
-    /// The same surface with a band that ends at `top_hz` (Hz), at most at its present top.
+    /// A bench of the same surface with a band that ends at `top_hz` (Hz), at most at the top of the
+    /// present band.
     ///
     /// # Errors
     /// [`StudyError::Field`] if the grid cannot be computed.
@@ -141,23 +142,24 @@ impl Bench {
         })
     }
 
-    /// Time reversal of a single pulse with a window (s).
+    /// Matrix of time reversal ([`Replay`]) for a single pulse with a window (s).
     pub fn once(&self, window: f64) -> Replay {
         Replay::once(&self.poles, self.conditions.rate, window)
     }
 
-    /// Time reversal of a single pulse with a window (s), in closed form: the work does not depend on the window. For
-    /// modes that oscillate.
+    /// Matrix of time reversal ([`Replay`]) for a single pulse with a window (s), in closed form: the
+    /// computing time does not depend on the window. For modes that oscillate.
     pub fn once_of_any_length(&self, window: f64) -> Replay {
         Replay::of_any_length(&self.poles, self.conditions.rate, window)
     }
 
-    /// Time reversal of a pulse repeated every `period` seconds, with a window (s), in the steady state.
+    /// Matrix of time reversal ([`Replay`]) for a pulse repeated every `period` seconds, with a window (s),
+    /// in the steady state.
     pub fn repeated(&self, window: f64, period: f64) -> Replay {
         Replay::repeated(&self.poles, self.conditions.rate, window, period)
     }
 
-    /// Modal velocities over a window (s), samples x modes.
+    /// Velocities of the modes after an impulse, over a window (s), samples x modes.
     pub(super) fn rings(&self, window: f64) -> Mat<f64> {
         rings(&self.poles, self.conditions.rate, window_samples(window, self.conditions.rate))
     }
@@ -174,7 +176,8 @@ impl Bench {
         }
     }
 
-    /// States at the focal instant, modes x actuators: column k is that of the first k + 1 actuators together.
+    /// States (modal velocities) at the focal instant of the target in `outside`, modes x actuators: column
+    /// k is the state for the first k + 1 actuators together.
     ///
     /// `inputs` are the shapes at the actuators, actuators x modes.
     pub fn states(&self, replay: &Replay, inputs: MatRef<'_, f64>, outside: &Outside) -> Mat<f64> {

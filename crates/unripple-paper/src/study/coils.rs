@@ -13,7 +13,7 @@ const PERMEABILITY: f64 = 4e-7 * PI;
 const COPPER: (f64, f64) = (1.68e-8, 8960.0);
 const REMANENCE: f64 = 1.2;
 
-/// Cells of the grid per shortest wavelength that contrast is taken on, as everywhere.
+/// Cells per shortest wavelength of the grid on which contrast is evaluated, as everywhere.
 const CELLS: f64 = 8.0;
 
 /// A kind of moving-magnet actuator, used at all actuators of a surface.
@@ -25,7 +25,7 @@ pub struct Coils {
     pub resistance: f64,
     /// Inductance, in H.
     pub inductance: f64,
-    /// Mass on the sheet, in kg.
+    /// Mass of the magnet that moves with the sheet, in kg.
     pub moving_mass: f64,
     /// Quantity that the amplifier imposes, current or voltage; `None` for an ideal force with the same mass.
     pub driven_by: Option<CoilDrive>,
@@ -59,14 +59,14 @@ impl Coils {
     }
 }
 
-/// Decay and focus of a surface with coils of one kind.
+/// Decay time of a surface with coils of one kind, and its time-reversed focus.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coiled {
     /// The kind of coil.
     pub coils: Coils,
     /// Median amplitude decay time of the oscillating modes, in s.
     pub decay_time_s: f64,
-    /// Contrast of a time-reversed focus.
+    /// Contrast of a time-reversed focus (ratio).
     pub contrast: f64,
     /// Peak velocity of this focus, in m/s, with a drive whose peak would exert 1 N on an immovable body.
     pub peak_velocity_m_s: f64,
@@ -111,26 +111,28 @@ fn median_decay(responses: &Responses) -> f64 {
     median(poles.iter().map(|(_, sigma)| 1.0 / sigma)).unwrap_or(f64::NAN)
 }
 
-/// Data for judging whether a force constant is possible for a coil and its magnet.
+/// Data that show whether a force constant is possible for a coil and its magnet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Credibility {
     /// Damping (bl)²/R of a coil driven by a voltage source, in N·s/m.
     pub coil_damping: f64,
-    /// Point resistance of an infinite sheet at the frequency, 1/Re Y = 4(R + 2Dk²)/ω, in N·s/m.
+    /// Point resistance of an infinite sheet, 1/Re Y = 4(R + 2Dk²)/ω, in N·s/m, with the driving-point
+    /// mobility Y, tension R, bending stiffness D, wavenumber k and angular frequency ω.
     pub sheet_resistance: f64,
-    /// Length of wire that has the force constant in a field of half the remanence, in m.
+    /// Length of wire that gives the force constant in a field of half the magnet's remanence, in m.
     pub wire_length_m: f64,
-    /// Mass of copper of that length and of the coil's resistance, in kg.
+    /// Mass of copper wire with the length `wire_length_m` and the coil's resistance, in kg.
     pub copper_kg: f64,
-    /// Turns that give the coil its inductance at a radius of the magnet's diameter: L ≈ μ_0 N² r (a coil about as long as
-    /// wide, within a factor of two).
+    /// Number of turns that give the coil its inductance at a radius of the magnet's diameter: L ≈ μ_0 N² r
+    /// (a coil about as long as wide, within a factor of two).
     pub turns: f64,
-    /// Largest force constant with that number of turns: the magnet's moment times the largest gradient on the axis of
-    /// a loop, N B_r V/μ_0 · 0.43 μ_0/r², in N/A.
+    /// Largest force constant with the number of turns `turns`: the magnet's moment times the largest
+    /// gradient on the axis of a loop, N B_r V/μ_0 · 0.43 μ_0/r², in N/A.
     pub reachable: f64,
 }
 
-/// Computes these data for a coil, a round magnet of given diameter and thickness (m), and a sheet at a frequency (Hz).
+/// Computes [`Credibility`] for a coil, a round magnet of given diameter and thickness (m), and a sheet at
+/// a frequency (Hz).
 pub fn credibility(coils: &Coils, [diameter, thickness]: [f64; 2], medium: &Medium, hz: f64) -> Credibility {
     let k = medium.wavenumber(TAU * hz);
     let slope = medium.tension + 2.0 * medium.bending_stiffness * k * k;

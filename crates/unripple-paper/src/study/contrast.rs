@@ -161,7 +161,7 @@ fn noise_level(bench: &Bench, velocity: f64, actuators: usize, window: f64) -> f
     (velocity / actuators as f64 / window / share).sqrt()
 }
 
-/// The closed forms of a bench.
+/// Parameters of the closed forms for a bench.
 struct Form {
     cavity: Cavity,
     bandwidth: f64,
@@ -213,7 +213,7 @@ fn means(bench: &Bench, replays: &[Replay], actuators: &[usize], sampling: &Samp
     (0..replays.len()).map(|i| (0..actuators.len()).map(|j| at(i, j)).collect()).collect()
 }
 
-/// Evaluates every draw: a row of values per target.
+/// Calls `evaluate` for every random placement, and returns a row of values per target.
 pub(super) fn over<F>(bench: &Bench, actuators: usize, sampling: &Sampling, evaluate: F) -> Vec<Vec<f64>>
 where
     F: Fn(usize, &Draw, MatRef<'_, f64>) -> Vec<Vec<f64>> + Sync,

@@ -7,14 +7,15 @@ use unripple_field::{Field, Trace};
 use unripple_focus::{Options, Target, focus};
 use unripple_physics::{Footprint, ResponseOptions, responses};
 
-/// Points along each side of the lattice on which noise elsewhere is taken.
+/// Number of points along each side of the lattice on which the noise elsewhere is evaluated.
 const LATTICE: usize = 14;
 
-/// Time around the focal instant, on either side, that does not count as noise, in periods of the top of the band.
+/// Time on either side of the focal instant that does not count as noise, in periods of the top frequency
+/// of the band.
 const PULSE: f64 = 4.0;
 
-/// A focus with a finger on the surface, compared with the same focus without it. Attenuations are ratios: without the
-/// finger over with it.
+/// A focus with a finger on the surface, compared with the same focus without it. Attenuations are ratios
+/// of a quantity without the finger to that with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touched {
     /// Radius of the contact disc, in metres.
@@ -29,8 +30,8 @@ pub struct Touched {
     /// from below. The finger loads the disc with an even pressure and does not stiffen the sheet, so this differs from
     /// the mean over the disc.
     pub centre_velocity: f64,
-    /// Attenuation of the noise at the contact: rms of the disc's mean velocity over [0, 2T], without four periods of
-    /// the top of the band on either side of the focal instant.
+    /// Attenuation of the noise at the contact: rms of the disc's mean velocity over [0, 2T], without the
+    /// four periods (of the top frequency of the band) on either side of the focal instant.
     pub noise_under_finger: f64,
     /// Attenuation of the noise elsewhere: rms velocity outside the focal disc over [0, 2T].
     pub noise_elsewhere: f64,

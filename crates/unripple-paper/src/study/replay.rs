@@ -19,14 +19,15 @@ enum Form {
 }
 
 impl Replay {
-    /// A single pulse with a window (s), at `rate` samples per second.
+    /// Time reversal of a single pulse with a window (s), at `rate` samples per second.
     pub fn once(poles: &[Pole], rate: f64, window: f64) -> Self {
         let rings = rings(poles, rate, window_samples(window, rate));
         Self::of(rings.clone(), rings, rate)
     }
 
-    /// A single pulse with a window (s). The computing time does not depend on the window, since the sums over samples are
-    /// computed in closed form. For modes that oscillate (σ < ω) or have ω = 0.
+    /// Time reversal of a single pulse with a window (s). The computing time does not depend on the window,
+    /// since the sums over samples are computed in closed form. For modes that oscillate (σ < ω) or have ω
+    /// = 0.
     ///
     /// g_m = Re a_m z_m^i, so that I_mn = ½ Re Σ_i (a_m a_n (z_m z_n)^i + a_m a_n* (z_m z_n*)^i), two geometric series.
     pub fn of_any_length(poles: &[Pole], rate: f64, window: f64) -> Self {
@@ -41,7 +42,8 @@ impl Replay {
         Self(Form::Whole(whole))
     }
 
-    /// A pulse repeated every `period` seconds in the steady state, with a window (s), at `rate` samples per second.
+    /// Time reversal of a pulse repeated every `period` seconds in the steady state, with a window (s), at
+    /// `rate` samples per second.
     ///
     /// The earlier pulses have left the state Σ_k P^k = (1 - P)⁻¹ of an impulse, P the propagator over a period, and
     /// one more begins every period.
@@ -64,7 +66,7 @@ impl Replay {
         Self::of(heard, rings(poles, rate, last), rate)
     }
 
-    /// The product of I (modes x modes) and a matrix with one row per mode.
+    /// Multiplies the matrix I (modes x modes) of time reversal by a matrix with one row per mode.
     pub fn apply(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
         match &self.0 {
             Form::Whole(map) => product(map.as_ref(), columns),
@@ -91,7 +93,7 @@ fn phasor(pole: Pole) -> (c64, c64) {
     (c64::new(1.0, lag), c64::new(-pole.sigma, swing))
 }
 
-/// Σ e^{xi} for i from 0, so many terms.
+/// The geometric series Σ e^{xi} for i from 0, with `terms` terms.
 fn geometric(x: c64, terms: f64) -> c64 {
     if (x * terms).norm() < 1e-9 {
         return c64::new(terms, 0.0);

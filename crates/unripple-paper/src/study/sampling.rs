@@ -3,10 +3,11 @@
 use super::Random;
 use unripple_core::{Outline, Point};
 
-/// Pieces into which a round edge is cut to place actuators along it, half a degree of a circle each.
+/// Number of straight pieces of a round edge along which actuators are placed: half a degree of a circle
+/// each.
 const RIM_STEPS: usize = 720;
 
-/// Largest number of draws of a place; after these one that does not meet all conditions is used.
+/// Largest number of draws of a place; after these, a place is used that does not meet all conditions.
 const TRIES: usize = 1000;
 
 /// A random sample of placements: actuators near the edge and targets inside, from a seed.
@@ -42,8 +43,8 @@ pub struct Draw {
 }
 
 impl Sampling {
-    /// All placements of `actuators` actuators (a number) on an outline. The first k actuators of a placement do not
-    /// depend on how many follow.
+    /// Draws all placements, with `actuators` actuators each, on an outline. The first k actuators of a
+    /// placement do not depend on how many follow.
     pub fn draws(&self, outline: &Outline, actuators: usize) -> Vec<Draw> {
         let rim = outline.rim(RIM_STEPS);
         let draw = |placement: usize| {

@@ -17,11 +17,11 @@ const REACH: f64 = 1.0;
 /// Simulated size of a focus in space and time, with the predictions of the closed forms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
-    /// Mean full width at half maximum in space, in metres.
+    /// Mean full width of the foci at half maximum in space, in metres.
     pub spot_diameter_m: f64,
     /// Spot diameter by [`closed::spot_diameter`], in metres.
     pub spot_predicted_m: f64,
-    /// Mean full width at half maximum in time, in seconds.
+    /// Mean full width of the foci at half maximum in time, in seconds.
     pub pulse_duration_s: f64,
     /// Pulse duration by [`closed::pulse_duration`], in seconds.
     pub pulse_predicted_s: f64,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// How a place is measured.
+/// How the responses at a point are measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum By {
@@ -21,14 +21,14 @@ pub enum By {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct InputScales {
-    /// Scale of all inputs that are not named.
+    /// Scale of all inputs that are not in `named`.
     pub all: Option<f64>,
-    /// Scales by the inputs' names: m/s for the probe, the sensors' unit for actuators; below 0 where an input is
-    /// reversed.
+    /// Scales by the names of inputs, in m/s for the probe and in the sensor's unit for actuators; negative
+    /// for an input of reversed polarity.
     pub named: BTreeMap<String, f64>,
 }
 
-/// What is measured, through which device, and the library in which it is stored.
+/// Request to measure responses: what is measured, through which device, and in which library it is stored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
@@ -38,7 +38,7 @@ pub struct Ask {
     pub device: DeviceAsk,
     /// Spacing of a square grid of points to measure, in m.
     pub pitch_m: Option<f64>,
-    /// Single points, in m.
+    /// Single points to measure, in m.
     pub points_m: Vec<Place>,
     /// How points are measured.
     pub by: By,
@@ -50,7 +50,8 @@ pub struct Ask {
     pub response_s: Option<f64>,
     /// Level of the sweeps, as a share of the surface's drive limit.
     pub level: f64,
-    /// Channels of actuators, sensors, probe or reference that are not called like them: pairs of the name and of its channel.
+    /// Pairs of the name of an actuator, sensor, probe or reference and the name of its channel, where the
+    /// two names differ.
     pub wires: Vec<(String, String)>,
     /// Scales of the inputs. Without them absolute levels are unknown.
     pub input_scales: InputScales,
@@ -58,16 +59,20 @@ pub struct Ask {
     pub without: Vec<String>,
     /// Delay of the probe relative to the sensors, in s, such as that of a vibrometer's decoder; by default it is estimated.
     pub probe_delay_s: Option<f64>,
-    /// Compare nothing with a model: for a surface that the model cannot describe, such as a whole phone or a sheet with ribs.
+    /// Skip all comparisons with a model, for a surface that the model cannot describe, such as a whole
+    /// phone or a sheet with ribs.
     pub no_model: bool,
-    /// Tape: resample recordings whose sample rate is not that of the surface.
+    /// For recordings made elsewhere (tape): resample those whose sample rate differs from that of the
+    /// surface.
     pub resample: bool,
-    /// Only check levels: one short recording shows what is too loud or too quiet, and what to do about it.
+    /// Only check levels: one short recording shows which channels are too loud or too quiet, and what to
+    /// do about it.
     pub check_levels: bool,
     /// Continue although the wiring test finds a fault.
     pub any_wiring: bool,
-    /// Folder for a figure: signal to noise and coherence over frequency, and which point is bad in which band. An existing folder is
-    /// replaced only if it holds nothing but the unchanged files of an earlier run.
+    /// Folder for a figure: signal-to-noise ratio and coherence over frequency, and which point is bad in
+    /// which band. An existing folder is replaced only if it holds nothing but the unchanged files of an
+    /// earlier run.
     pub figure: Option<PathBuf>,
     /// Folder of the library: a new one, or that of an unfinished run with the same options.
     pub output: PathBuf,

@@ -6,16 +6,17 @@ use unripple::core::Surface;
 use unripple_calibrate::measure::MeasureOptions;
 use unripple_store::{Library, LibraryPlan};
 
-/// Key of a plan's provenance for the length of a sweep, in s.
+/// Key in the provenance of a library's plan: the length of a sweep, in s.
 pub const SWEEP: &str = "sweep s";
-/// Key of a plan's provenance for the lowest and highest frequency of a sweep, in Hz.
+/// Key in the provenance of a library's plan: the lowest and highest frequency of a sweep, in Hz.
 pub const SWEPT: &str = "swept Hz";
 
-/// Frequencies that differ by less than this share are the same.
+/// Relative difference below which two frequencies count as the same.
 const SAME: f64 = 1e-9;
 
-/// Takes over the sweep settings of a library that is continued, where the request does not give them: the settings that suit the surface may
-/// have changed since, and points measured with different sweeps do not go together.
+/// Takes over the sweep settings of a library that is continued, where the request does not specify them:
+/// the defaults for the surface may have changed since, and points measured with different sweeps must not
+/// be mixed.
 pub fn apply(ask: &Ask, surface: &Surface, settings: &mut MeasureOptions) -> Result<(), TaskError> {
     if !Library::is_at(&ask.output) {
         return Ok(());
@@ -47,7 +48,7 @@ pub fn apply(ask: &Ask, surface: &Surface, settings: &mut MeasureOptions) -> Res
     Ok(())
 }
 
-/// The sweep's length, and that of the responses.
+/// Takes over the length of the sweep and of the responses.
 fn rest(plan: &LibraryPlan, ask: &Ask, surface: &Surface, settings: &mut MeasureOptions) {
     let sweep = plan.provenance.get(SWEEP).and_then(|text| text.parse().ok());
     if let Some(sweep) = sweep.filter(|s: &f64| s.is_finite() && *s > 0.0 && ask.sweep_s.is_none()) {

@@ -1,4 +1,4 @@
-//! What a calibration knows before anything is measured, and the plan of its library.
+//! All that a calibration knows before anything is measured, and the plan of its library.
 
 use super::ask::{Ask, By};
 use super::before;
@@ -12,10 +12,10 @@ use unripple::core::{ModalResponses, Surface};
 use unripple_calibrate::measure::MeasureOptions;
 use unripple_store::{Library, LibraryPlan, OutputDir};
 
-/// The key of a plan's provenance that counts the points measured by a probe or by taps.
+/// Key in the provenance of a library's plan: the number of points measured by a probe or by taps.
 pub(super) const PROBED: &str = "probed points";
 
-/// The key of a plan's provenance that says by what points were measured.
+/// Key in the provenance of a library's plan: whether points were measured by a probe or by taps.
 const BY: &str = "by";
 
 /// Whether a library's points were measured by taps, not by a probe.
@@ -23,11 +23,11 @@ pub(crate) fn by_taps(library: &Library) -> bool {
     library.plan().provenance.get(BY).is_some_and(|by| by == "tap")
 }
 
-/// All that is known before anything is measured.
+/// Request, surface, model and settings of a calibration, as known before anything is measured.
 pub(crate) struct Campaign<'a> {
     /// The request of the task.
     pub ask: &'a Ask,
-    /// The surface as its file has it.
+    /// The surface as its file describes it.
     pub surface: &'a Surface,
     /// Model of the surface, from its file.
     pub model: &'a ModalResponses,
@@ -37,19 +37,19 @@ pub(crate) struct Campaign<'a> {
     pub scales: Scales,
     /// The places to be measured.
     pub places: Places,
-    /// Where a figure is to be, if one is asked for.
+    /// Folder for a figure of the library's quality, if one is requested.
     pub figure: Option<OutputDir>,
     /// The callback that reports progress.
     pub(super) progress: RefCell<&'a mut dyn Progress>,
 }
 
 impl Campaign<'_> {
-    /// Shows people a line.
+    /// Shows the user a line of text.
     pub fn tell(&self, line: &str) {
         self.progress.borrow_mut().tell(line);
     }
 
-    /// Hands out the callback that reports progress.
+    /// Calls `work` with the callback that reports progress.
     pub fn with_progress<T>(&self, work: impl FnOnce(&mut dyn Progress) -> T) -> T {
         work(*self.progress.borrow_mut())
     }
@@ -62,7 +62,7 @@ impl Campaign<'_> {
         self.with_progress(|progress| go_on(progress))
     }
 
-    /// Says what is too short for the surface.
+    /// Warns of sweeps or responses that are too short for the surface.
     pub(super) fn warn(&self) {
         self.settings
             .warnings(self.model)
@@ -70,7 +70,7 @@ impl Campaign<'_> {
             .for_each(|warning| self.tell(&format!("warning: {warning}")));
     }
 
-    /// What the library is to hold.
+    /// The plan of the library: its points, actuators, length of responses, and provenance.
     pub(super) fn plan(&self) -> LibraryPlan {
         let (ask, settings, surface) = (self.ask, &self.settings, self.surface);
         let by = format!("{:?}", ask.by).to_lowercase();
@@ -91,7 +91,7 @@ impl Campaign<'_> {
         LibraryPlan { surface: Some(surface.clone()), provenance, ..known }
     }
 
-    /// Scales of the inputs and outputs, for the log. With taps the model tells their strength.
+    /// Scales of the inputs and outputs, for the log. With taps, their strength follows from the model.
     pub(super) fn scale_told(&self) -> Value {
         match self.ask.by {
             By::Probe => self.scales.told(),

@@ -8,11 +8,12 @@ use unripple::core::{PROBE, Surface};
 use unripple_calibrate::measure::Rig;
 use unripple_devices::{DevicesError, Jack, Perturbation, VirtualOptions};
 
-/// An open device, and who moves its probe.
+/// An open device, with the simulation or the people that move its probe.
 pub struct Opened {
-    /// The device, and who moves its probe.
+    /// The device, and the simulation or person that moves its probe or taps.
     pub rig: Box<dyn Rig>,
-    /// How a virtual surface differs from its file, in words; `None` if it does not.
+    /// How the virtual surface differs from its file, in words; `None` if it does not, or for a real
+    /// device.
     pub truth: Option<String>,
 }
 
@@ -26,13 +27,13 @@ fn failed(error: DevicesError) -> TaskError {
     }
 }
 
-/// Opens the device that a request names, with the people at a real one.
+/// Opens the device that a request names; `people` are those at the surface of a real device.
 pub fn open(options: &DeviceAsk, surface: &Surface, people: People) -> Result<Opened, TaskError> {
     open_under(options, surface, people, Vec::new())
 }
 
-/// Opens the device that a request names, as `open` does. `tension` is the tension of a virtual surface divided by its nominal tension
-/// (ratio), against time (s).
+/// Opens the device that a request names, as [`open`] does; `tension` is a table of time (s) and the
+/// tension of a virtual surface relative to its nominal tension (ratio).
 pub fn open_under(
     options: &DeviceAsk,
     surface: &Surface,
@@ -91,7 +92,7 @@ fn card(options: &DeviceAsk, surface: &Surface, people: People) -> Result<Opened
     Ok(Opened { rig: Box::new(HandRig::new(device, people)), truth: None })
 }
 
-/// Says how to get a program that knows cards.
+/// The error that this build has no sound cards, and how to get one that does.
 #[cfg(not(feature = "cards"))]
 fn card(options: &DeviceAsk, _: &Surface, _: People) -> Result<Opened, TaskError> {
     let named = options.card.as_ref().or(options.capture_card.as_ref());

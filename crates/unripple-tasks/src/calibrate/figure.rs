@@ -1,4 +1,5 @@
-//! The figure of a library's quality: signal-to-noise ratio and coherence over frequency, and which point is bad in which band.
+//! The figure of a library's quality: signal-to-noise ratio and coherence over frequency, and which point
+//! is bad in which frequency band.
 
 use super::ask::Ask;
 use super::campaign::Campaign;
@@ -9,17 +10,17 @@ use unripple_plot::{
 };
 use unripple_store::{BandQuality, Library, OutputDir};
 
-/// Range of the signal-to-noise ratios that are drawn, in dB: 0, where noise is all there is, and 40, which is worth aiming at. Values
-/// beyond an end get its colour.
+/// Range of the signal-to-noise ratios that are drawn, in dB: from 0, where noise is all there is, to 40,
+/// which is worth aiming at. Values beyond an end get its colour.
 const SHOWN_DB: [f64; 2] = [0.0, 40.0];
 
-/// Share of the responses that are worse than the second line.
+/// Share of the responses that are worse than the lower of the two lines drawn.
 const WORST: f64 = 0.1;
 
-/// Half a third of an octave, as a ratio. It is 2^(1/6), so that neighbouring bands meet.
+/// Ratio of a third-octave band's upper edge to its middle: 2^(1/6), so that neighbouring bands meet.
 const HALF: f64 = 1.122_462_048_309_373;
 
-/// Creates the folder for the figure, if one is asked for, before anything is measured.
+/// Creates the folder for the figure, if the request names one, before anything is measured.
 pub fn place(ask: &Ask) -> Result<Option<OutputDir>, TaskError> {
     let Some(place) = &ask.figure else { return Ok(None) };
     if *place == ask.output {
@@ -33,7 +34,8 @@ pub fn place(ask: &Ask) -> Result<Option<OutputDir>, TaskError> {
     Ok(Some(OutputDir::create_beside(place, &reads)?))
 }
 
-/// Draws the figure, if one is asked for, from the library as it is now.
+/// Draws the figure of the library's quality, if the request names a folder for it, and puts the folder in
+/// its place.
 pub fn write(campaign: &mut Campaign<'_>, library: &Library) -> Result<(), TaskError> {
     let Some(out) = campaign.figure.take() else { return Ok(()) };
     let known = Known::of(library, campaign.places.probed)?;
@@ -41,7 +43,7 @@ pub fn write(campaign: &mut Campaign<'_>, library: &Library) -> Result<(), TaskE
     campaign.with_progress(|progress| folder::finish(out, progress))
 }
 
-/// Quality by bands, `[point][actuator][band]`.
+/// Quality of a library's responses by frequency band, `[point][actuator][band]`.
 struct Known<'a> {
     library: &'a Library,
     middles: &'a [f64],
@@ -66,7 +68,8 @@ impl<'a> Known<'a> {
         )))
     }
 
-    /// Responses of which anything is known: those at probed points, or at the actuators if there are no others.
+    /// Responses whose quality is known: those at probed points, or at the actuators if there are no
+    /// others.
     fn responses(&self) -> impl Iterator<Item = &[BandQuality]> {
         let known = |point: &&Vec<Vec<BandQuality>>| point.iter().flatten().any(is_known);
         let points = if self.probed.iter().any(|point| known(&point)) { &self.probed } else { &self.own };
@@ -100,7 +103,7 @@ impl<'a> Known<'a> {
         }
     }
 
-    /// Both ends of all thirds, and what is between them.
+    /// Edges of all third-octave bands, in Hz.
     fn edges(&self) -> Vec<f64> {
         let last = self.middles.last().map(|hz| hz * HALF);
         self.middles.iter().map(|hz| hz / HALF).chain(last).collect()
@@ -143,7 +146,8 @@ impl<'a> Known<'a> {
         vec![line(0.5, "median of all responses", 0), line(WORST, "worst tenth", 1)]
     }
 
-    /// Points by bands, each as good as the worst of its responses; none where nothing is known of any.
+    /// Map of points against bands, each coloured by the worst of its responses; `None` if the quality of
+    /// none is known.
     fn worst(
         &self,
         points: &[Vec<Vec<BandQuality>>],

@@ -1,4 +1,5 @@
-//! The record of a measurement in its library: settings before it begins, doubts when all points are there.
+//! The record of a measurement in its library: its settings before it begins, and doubts once all points
+//! are measured.
 
 use super::campaign::{Campaign, by_taps};
 use super::shelf::Shelf;
@@ -9,33 +10,35 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use unripple_devices::reciprocal;
 use unripple_store::{Doubt, Library, PointState, date};
 
-/// Share of the actuators' responses at each other that may differ both ways, gains free, beyond what noise explains:
-/// a change of tension by 0.3 %, or clocks apart by 12 millionths, makes as much.
+/// Largest relative difference between the two directions of the responses between actuators, after fitting
+/// gains, beyond what noise explains: a change of tension by 0.3 %, or clocks that differ by 12 millionths,
+/// make as much.
 const RECIPROCITY: f64 = 0.15;
 
-/// Seconds by which actuators may disagree on the latency: a third of a period at 3 kHz.
+/// Largest difference between the latencies of actuators, in s: a third of a period at 3 kHz.
 const LATENCY: f64 = 1e-4;
 
-/// Sensors are of another scale than the probe if they are louder or quieter than it by more than this, on average over all places.
+/// Ratio of the mean levels of sensors and probe beyond which their scales count as different.
 const APART: f64 = 2.0;
 
-/// Runs that the log holds: more says nothing more.
+/// Largest number of runs in the log; older ones are dropped.
 const RUNS: usize = 100;
 
-/// The check that finds a measurement which was stopped.
+/// Name of the check that finds a measurement which was stopped.
 const UNFINISHED: &str = "unfinished";
 
-/// The check that finds own points missing or bad.
+/// Name of the check that finds points at actuators missing or bad.
 const OWN: &str = "own";
 
-/// Key of the log entry for options that change responses, other than scales.
+/// Key of the log entry for requested options that change the measured responses, other than scales.
 pub const ASKED: &str = "asked";
 
-/// Key within that entry for the probe's delay that was removed from recordings, in s.
+/// Key, within the log entry [`ASKED`], of the probe's delay in s that was set by the request and removed
+/// from recordings.
 pub const PROBE_DELAY: &str = "probe_delay_s";
 
-/// Records in the library the settings of a measurement before any point is measured, and a doubt that it is unfinished: both remain if the
-/// run is stopped.
+/// Records the settings of a measurement in the library before any point is measured, and a doubt that it
+/// is unfinished: both remain if the run is stopped.
 pub fn begin(campaign: &Campaign<'_>, library: &mut Library) -> Result<(), TaskError> {
     let names: Vec<&str> = campaign.surface.actuators.iter().map(|a| a.name.as_str()).collect();
     let dead: Vec<&str> = campaign.settings.without.iter().map(|actuator| names[*actuator]).collect();
@@ -55,7 +58,8 @@ pub fn begin(campaign: &Campaign<'_>, library: &mut Library) -> Result<(), TaskE
     Ok(library.set_doubts(UNFINISHED, vec![stopped])?)
 }
 
-/// Checks everything that was measured, and records doubts in the library. `latency` is in samples, followed by its spread over actuators.
+/// Checks all that was measured, and records doubts in the library. `latency` is in samples, followed by
+/// its spread over actuators in samples.
 pub fn finish(
     campaign: &Campaign<'_>,
     shelf: &mut Shelf,
@@ -71,7 +75,8 @@ pub fn finish(
     Ok(shelf.library.set_doubts(UNFINISHED, Vec::new())?)
 }
 
-/// Adds a run to the log: the number of points that it measured, and how many seconds it took.
+/// Adds a run to the library's log: its settings, the number of points that it measured, and how many
+/// seconds it took.
 pub fn log_run(
     campaign: &Campaign<'_>,
     library: &mut Library,
@@ -100,7 +105,7 @@ pub fn log_run(
 /// Responses from actuator to actuator, `[sensor][drive][sample]`.
 type Pairs = Vec<Vec<Vec<f64>>>;
 
-/// Actuators whose own points are measured and not left out, and the responses at their sensors.
+/// Actuators that are not left out and whose sensors were measured, and the responses at their sensors.
 fn own(campaign: &Campaign<'_>, shelf: &Shelf) -> Result<(Vec<usize>, Pairs), TaskError> {
     let library = &shelf.library;
     let count = campaign.surface.actuators.len();
@@ -118,7 +123,7 @@ fn own(campaign: &Campaign<'_>, shelf: &Shelf) -> Result<(Vec<usize>, Pairs), Ta
     Ok((alive, heard))
 }
 
-/// Doubts a library whose actuators' responses at each other are not reciprocal.
+/// Records a doubt about a library if the responses between its actuators are not reciprocal.
 fn reciprocity(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
     const CHECK: &str = "reciprocity";
     let (alive, heard) = own(campaign, shelf)?;
@@ -163,7 +168,7 @@ fn noise(shelf: &Shelf, alive: &[usize]) -> Result<f64, TaskError> {
     Ok(if count > 0.0 { (2.0_f64 * sum / count).sqrt() } else { 0.0 })
 }
 
-/// Doubts a library whose actuators disagree on the latency.
+/// Records a doubt about a library if the latencies of its actuators differ too much.
 fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>) -> Result<(), TaskError> {
     const CHECK: &str = "latency";
     let Some([late, spread]) = latency else { return Ok(()) };
@@ -185,8 +190,8 @@ fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>)
     Ok(shelf.library.set_doubts(CHECK, found.into_iter().collect())?)
 }
 
-/// Removes the doubt that a record of the library could not be read, once all points that are there were measured since: in this run, or as
-/// the new record says.
+/// Removes the doubt that a record of the library could not be read, once all measured points were measured
+/// after it: in this run, or as the new record says.
 fn recorded(shelf: &mut Shelf) -> Result<(), TaskError> {
     let library = &shelf.library;
     let own = library.logged("own").is_some();
@@ -201,7 +206,7 @@ fn recorded(shelf: &mut Shelf) -> Result<(), TaskError> {
     Ok(shelf.library.set_doubts("record", Vec::new())?)
 }
 
-/// Doubts a library that lacks the responses at a sensor, unless it is dead.
+/// Records a doubt about a library without the responses at a sensor, unless the sensor is dead.
 fn lacking(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
     let lacks = |actuator: &usize| {
         let state = shelf.library.state(shelf.probed + actuator);
@@ -224,7 +229,7 @@ fn lacking(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
     Ok(shelf.library.set_doubts(OWN, found.into_iter().collect())?)
 }
 
-/// Doubts a library none of whose probed points is good.
+/// Records a doubt about a library if none of its probed points is good.
 fn useless(shelf: &mut Shelf) -> Result<(), TaskError> {
     const CHECK: &str = "probed";
     let count = |state: PointState| {
@@ -251,7 +256,8 @@ pub(super) fn points(count: usize) -> String {
     format!("{count} point{}", if count == 1 { "" } else { "s" })
 }
 
-/// Leaves the actuators' own points out of figures, where sensors are of another scale than the probe.
+/// Records that the points at actuators are not used in metrics, if the sensors are of another scale than
+/// the probe.
 fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
     let (sensing, plan) = (own::sensing(campaign.surface)?, shelf.library.plan());
     let power = |points: std::ops::Range<usize>, own: bool| -> Result<Option<f64>, TaskError> {

@@ -1,4 +1,4 @@
-//! Check of levels before the long run: what is too loud, what is too quiet, and what to do.
+//! Check of levels before a long measurement: what is too loud, what is too quiet, and what to do.
 
 use super::campaign::Campaign;
 use super::points::middle;
@@ -11,10 +11,10 @@ use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Rig, Session,
 use unripple_calibrate::signals::clipped;
 use unripple_store::read_wav;
 
-/// Share of full scale above which the next take may clip.
+/// Peak, as a share of full scale, above which the next recording may clip.
 const LOUD: f64 = 0.9;
 
-/// Share of full scale below which the steps of integer samples matter: 40 dB below full scale.
+/// Peak, as a share of full scale, below which the steps of integer samples matter: 40 dB below full scale.
 const QUIET: f64 = 0.01;
 
 /// Signal-to-noise ratio, in dB, that is worth aiming at: half a per cent of noise in a focus of ten actuators.
@@ -23,38 +23,38 @@ const AIM: f64 = 40.0;
 /// Signal to noise below which a response is bad, in dB, with some to spare.
 const LEAST: f64 = 23.0;
 
-/// Samples side by side at the largest magnitude that are no chance. A sine of 60 Hz in 16 bits at 48 kHz stays at
-/// its crest for three.
+/// Number of samples in runs at the largest magnitude up to which a channel does not count as clipped. A
+/// sine of 60 Hz in 16 bits at 48 kHz stays at its crest for three.
 const FLAT: usize = 20;
 
-/// Largest number of repeats that are worth their time: they raise the signal-to-noise ratio by 12 dB, and the next 3 dB double
-/// the time again.
+/// Largest number of repeats that are worth their time: they raise the signal-to-noise ratio by 12 dB, and
+/// the next 3 dB would double the time again.
 const REPEATS: f64 = 16.0;
 
-/// One channel of a take.
+/// Level of one channel of a recording.
 #[derive(Clone, Debug, Serialize)]
 struct Level {
-    /// The file, of recordings.
+    /// Name of the file, for recordings made elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<String>,
-    /// Counted from 1.
+    /// Number of the channel, from 1.
     channel: usize,
     name: String,
     /// Largest magnitude, 1 being full scale.
     peak: f64,
-    /// Samples that are clipped.
+    /// Number of clipped samples.
     clipped: usize,
-    /// Of the worst response, in dB, where it is known.
+    /// Signal-to-noise ratio of the worst response, in dB, if it is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     signal_to_noise_db: Option<f64>,
-    /// What to do.
+    /// What to do about the level, if anything.
     advice: Option<String>,
     /// Whether the input must have a signal.
     #[serde(skip)]
     needed: bool,
 }
 
-/// Levels of all channels, and what to do about them.
+/// Levels of all recorded channels, and advice on what to do about them.
 #[derive(Clone, Debug, Serialize)]
 pub struct Levels {
     levels: Vec<Level>,
@@ -93,7 +93,7 @@ impl Level {
         }
     }
 
-    /// The level of an input that may be silent.
+    /// This level, without advice on silence, for an input that may be silent.
     fn unneeded(self) -> Self {
         let advice = self.advice.filter(|_| self.peak > 0.0);
         Self { advice, needed: false, ..self }
@@ -103,7 +103,8 @@ impl Level {
         self.needed && (self.clipped > 0 || self.peak <= 0.0)
     }
 
-    /// Adds what its responses say, measured with these settings, and what would help.
+    /// Adds the signal-to-noise ratio of the channel's responses, measured with `settings`, and advice on
+    /// how to raise it.
     fn judged(&mut self, channel: &Channel, without: &[usize], settings: &MeasureOptions) {
         let all = channel.quality.iter().enumerate().filter(|(actuator, _)| !without.contains(actuator));
         let worst = all.map(|(_, quality)| quality.snr_db).fold(f64::INFINITY, f64::min);
@@ -164,14 +165,14 @@ impl Levels {
         text
     }
 
-    /// Why levels count as failed: clipped or silent channels.
+    /// Why the check of levels counts as failed: clipped or silent channels; `None` if there are none.
     pub(super) fn failure(&self) -> Option<String> {
         let useless = self.levels.iter().filter(|level| level.is_useless()).count();
         (useless > 0).then(|| format!("levels: {useless} channels are clipped or silent, see above"))
     }
 }
 
-/// Plays all sweeps once, and listens to all inputs.
+/// Plays all sweeps once, records all inputs, and returns their levels.
 pub(super) fn listen(
     known: &Campaign<'_>,
     rig: &mut dyn Rig,
@@ -210,7 +211,7 @@ pub(super) fn listen(
     Ok(Levels::of(levels))
 }
 
-/// Looks at the recordings that are there; in those of the actuators the probe may be silent.
+/// Returns the levels of all recordings; in those of the actuators' sensors the probe may be silent.
 pub(super) fn look(files: &[(PathBuf, bool)], inputs: &[String]) -> Result<Levels, TaskError> {
     let mut levels = Vec::new();
     for (file, of_actuators) in files {

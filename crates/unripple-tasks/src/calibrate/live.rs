@@ -1,4 +1,4 @@
-//! Calibration through a device that plays and listens at once.
+//! Calibration through a device that plays and records at the same time.
 
 use super::campaign::Campaign;
 use super::devices::{self, Opened};
@@ -21,7 +21,7 @@ use unripple_calibrate::measure::{
 use unripple_devices::{Expected, WiringOptions, check_wiring};
 use unripple_store::{Library, PointState};
 
-/// Measures all points that are missing, and says what the library is worth.
+/// Measures all points that are missing from the library, and reports on its quality.
 pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskError> {
     let (ask, surface) = (known.ask, known.surface);
     before::apply(ask, surface, &mut known.settings)?;
@@ -83,7 +83,7 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
     Report::of_library(&report, doubted(&shelf.library).or(drawn.err().map(|error| error.to_string())))
 }
 
-/// Measures the points that are missing, one by one, each up to `retries` times again where it is bad.
+/// Measures the missing points one by one, and repeats a bad one up to `retries` times.
 fn fill(
     known: &Campaign<'_>,
     rig: &mut dyn Rig,
@@ -105,12 +105,12 @@ fn fill(
     })
 }
 
-/// Whether a library has points already.
+/// Whether a library has measured points already.
 fn is_begun(library: &Library) -> bool {
     library.in_state(PointState::Missing).len() < library.points().len()
 }
 
-/// Refuses to mix points of two scales, or of two delays of the probe, in one library.
+/// Returns an error if points of two scales, or of two delays of the probe, would be mixed in one library.
 fn agree(known: &Campaign<'_>, library: &Library) -> Result<(), TaskError> {
     let here = known.scale_told();
     let other = library.logged("scale").filter(|there| is_begun(library) && **there != here);
@@ -140,7 +140,8 @@ fn agree(known: &Campaign<'_>, library: &Library) -> Result<(), TaskError> {
     }
 }
 
-/// Refuses to mix points that were measured without other actuators in one library: what is left out is zero there.
+/// Returns an error if other actuators are left out than for the points already in the library: their
+/// responses are stored as zeros.
 fn same_dead(known: &Campaign<'_>, library: &Library) -> Result<(), TaskError> {
     let (there, here) = (library.dead(), &known.settings.without);
     if !is_begun(library) || library.logged("scale").is_none() || there == *here {
@@ -162,7 +163,7 @@ fn same_dead(known: &Campaign<'_>, library: &Library) -> Result<(), TaskError> {
     )))
 }
 
-/// Tries the wires, where the device has a sensor for each actuator.
+/// Tests the wiring, if the device has a sensor for each actuator.
 fn wiring(
     known: &Campaign<'_>,
     rig: &mut dyn Rig,
@@ -185,7 +186,8 @@ fn wiring(
     Asked::of(known).judge(&found)
 }
 
-/// Responses of actuators at each other and at themselves, as the library's last points.
+/// Measures the responses from each actuator to the sensors of all, and stores them as the library's last
+/// points.
 fn own(
     known: &Campaign<'_>,
     session: &Session,

@@ -1,4 +1,4 @@
-//! `calibrate`: responses measured through a device, point by point, into a library.
+//! `calibrate`: measures responses through a device, point by point, and stores them in a library.
 
 mod ask;
 pub(crate) mod before;

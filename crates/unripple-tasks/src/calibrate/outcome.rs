@@ -6,12 +6,13 @@ use serde::Serialize;
 use serde_json::Value;
 use unripple_store::Library;
 
-/// Report of a calibration, whose content depends on what was asked.
+/// Report of a calibration; its content depends on whether a library was measured, recordings were read, or
+/// levels were checked.
 #[derive(Clone, Debug, Serialize)]
 #[serde(transparent)]
 pub struct Report {
-    /// The report as JSON: the quality of a library; with recordings made elsewhere also which are missing or unusable;
-    /// of a check of levels the level of each channel.
+    /// The report as JSON: the quality of a library; with recordings made elsewhere also which are missing
+    /// or unusable; after a check of levels, the level of each channel.
     pub found: Value,
     #[serde(skip)]
     text: String,
@@ -20,18 +21,19 @@ pub struct Report {
 }
 
 impl Report {
-    /// Of a library that was measured, and why it counts as failed if it does.
+    /// Report on a library that was measured; `failure` states why the calibration counts as failed, if it
+    /// does.
     pub(super) fn of_library(report: &report::Report, failure: Option<String>) -> Result<Self, TaskError> {
         let found = serde_json::to_value(report).map_err(TaskError::work)?;
         Ok(Self { found, text: report.text(), failure })
     }
 
-    /// The answer of a calibration by recordings.
+    /// Report on a calibration with recordings made elsewhere.
     pub(super) fn of_tape(found: Value, text: String, failure: Option<String>) -> Self {
         Self { found, text, failure }
     }
 
-    /// The answer of a look at levels.
+    /// Report on a check of levels.
     pub(super) fn of_levels(levels: &Levels) -> Result<Self, TaskError> {
         let found = serde_json::to_value(levels).map_err(TaskError::work)?;
         Ok(Self { found, text: levels.text(), failure: levels.failure() })

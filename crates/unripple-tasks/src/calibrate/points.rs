@@ -9,13 +9,13 @@ use unripple::core::{Point, Surface};
 /// actuators' sensors measure.
 #[derive(Clone, Debug, Default)]
 pub struct Places {
-    /// All points, the actuators' own last, in m.
+    /// All points, those at the actuators last, in m.
     pub points: Vec<Point>,
-    /// Number of points measured by a probe or by taps; the rest are the actuators.
+    /// Number of points measured by a probe or by taps; the others lie at the actuators.
     pub probed: usize,
 }
 
-/// The places that were asked for.
+/// The points that a request names; if `sensing`, those at the actuators are added.
 pub fn places(ask: &Ask, surface: &Surface, sensing: bool) -> Result<Places, TaskError> {
     let mut points = grid::places(&surface.outline, ask.pitch_m, &ask.points_m)?;
     let probed = points.len();

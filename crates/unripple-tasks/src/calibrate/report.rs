@@ -21,13 +21,13 @@ pub struct Report {
     signal_to_noise_db: Spread,
     distortion_db: Spread,
     decay_time_s: Spread,
-    /// Error of reciprocity, one gain for each actuator being free, as a ratio.
+    /// Relative error of reciprocity, after one gain per actuator has been fitted.
     reciprocity_error: Option<f64>,
     seconds_per_recording: f64,
     seconds: f64,
     /// Why the library is not to be trusted, if it is not.
     doubtful: Vec<String>,
-    /// What else there is to say.
+    /// Other notes.
     notes: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     truth: Option<String>,
@@ -41,7 +41,7 @@ struct Spread {
 }
 
 impl Spread {
-    /// Of the values that are known, the worst being the greatest after `toll`.
+    /// Median and worst of the values that are known; the worst is the one with the greatest `toll`.
     fn of(values: impl Iterator<Item = f64>, toll: impl Fn(f64) -> f64) -> Self {
         let mut known: Vec<f64> = values.filter(|value| value.is_finite()).collect();
         known.sort_unstable_by(|a, b| toll(*a).total_cmp(&toll(*b)));
@@ -96,7 +96,7 @@ impl Report {
         })
     }
 
-    /// The report for people, a few lines.
+    /// The report as a few lines of text for people.
     pub fn text(&self) -> String {
         let mut text = format!("{}: {} of {} points measured", self.library, self.measured, self.points);
         if !self.bad.is_empty() {
@@ -123,13 +123,14 @@ impl Report {
     }
 }
 
-/// The error that the library is rated by, gains free; where it was not rated, that of its responses as they are.
+/// The reciprocity error from the library's log, with gains fitted; without an entry, the error of its
+/// responses as they are.
 fn reciprocity(library: &Library) -> Result<Option<f64>, TaskError> {
     let judged = library.logged("reciprocity").and_then(|log| log["error"].as_f64());
     Ok(judged.map_or_else(|| library.reciprocity_error(), |error| Ok(Some(error)))?)
 }
 
-/// Notes on single points that are printed: all are in the library.
+/// Largest number of notes on single points that are printed: all are in the library.
 const LISTED: usize = 8;
 
 /// Notes: sentences of the library's log, then those on single recordings, then the reason why absolute levels are unknown.

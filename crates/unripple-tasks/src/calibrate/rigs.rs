@@ -6,8 +6,8 @@ use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Rig, SILENCE};
 use unripple_devices::{Handle, Tap, Virtual};
 
-/// The virtual surface, at rest before every recording. Its noise and taps depend on the seed, the point and the
-/// attempt alone.
+/// The virtual surface, brought to rest before every recording. Its noise and taps depend only on the seed,
+/// the point and the number of the attempt.
 pub struct VirtualRig {
     device: Virtual,
     handle: Handle,
@@ -15,7 +15,8 @@ pub struct VirtualRig {
 }
 
 impl VirtualRig {
-    /// A virtual surface whose noise and taps follow from `seed`, the point and the attempt.
+    /// A virtual surface whose noise and taps are determined by `seed`, the point and the number of the
+    /// attempt.
     pub fn new(device: Virtual, seed: u64) -> Self {
         Self { handle: device.handle(), device, seed }
     }
@@ -47,11 +48,11 @@ impl Rig for VirtualRig {
     }
 }
 
-/// People at a real surface.
+/// The people at a real surface, and whether they move a probe.
 pub struct People {
-    /// The callback that asks them to move the probe or to tap.
+    /// The callback that asks the people to move the probe or to tap.
     pub hands: Hands,
-    /// Whether there is a probe to be moved: taps need none.
+    /// Whether there is a probe to be moved; measurements by taps need none.
     pub probe: bool,
 }
 
@@ -63,7 +64,7 @@ pub struct HandRig<D> {
 }
 
 impl<D: Device> HandRig<D> {
-    /// A real device, and the people at it.
+    /// A real device, with the people at its surface.
     pub fn new(device: D, people: People) -> Self {
         Self { device, people, place: None }
     }

@@ -1,4 +1,4 @@
-//! Measures responses, through a device or from recordings made elsewhere, into a library.
+//! Measures responses, through a device or by recordings made elsewhere, and stores them in a library.
 
 use super::campaign::Campaign;
 use super::points::Places;
@@ -11,8 +11,9 @@ use unripple::core::{ModalResponses, Responses, Surface};
 use unripple_calibrate::measure::{MOST_KEPT, MOST_REPEATS, MeasureOptions};
 use unripple_store::Library;
 
-/// Measures responses through a device and stores them in a library. With recordings made elsewhere (tape) it writes the file to play, then
-/// reads the recordings. For devices that need no person at the surface; for others see [`run_with`].
+/// Measures responses through a device and stores them in a library. With recordings made elsewhere (tape)
+/// it writes the file to play, then reads the recordings. It is for devices that need no person at the
+/// surface; for others use [`run_with`].
 ///
 /// # Errors
 /// Those of [`run_with`].
@@ -20,8 +21,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     run_with(ask, nobody(), progress)
 }
 
-/// Measures responses as [`run()`] does; `hands` asks a person to move the probe or to tap. A cancelled run leaves the library as it is, to
-/// be continued.
+/// Measures responses as [`run()`] does, and calls `hands` to ask a person to move the probe or to tap. A
+/// cancelled run leaves the library as it is, to be continued.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of options that make no sense; those of surfaces, devices, files and measurements; [`TaskError::Cancelled`].
@@ -46,7 +47,7 @@ pub fn run_with(ask: &Ask, hands: Hands, progress: &mut dyn Progress) -> Result<
     }
 }
 
-/// Refuses numbers that make no sense, before there is a model.
+/// Returns an error for numbers that make no sense, before the model is computed.
 fn check(ask: &Ask, surface: &Surface, scales: &Scales) -> Result<(), TaskError> {
     let level = above_zero(ask.level, "level", "of the limit")?;
     if !(1..=MOST_REPEATS).contains(&ask.repeats) {
@@ -59,7 +60,7 @@ fn check(ask: &Ask, surface: &Surface, scales: &Scales) -> Result<(), TaskError>
     without(ask, surface).map(drop)
 }
 
-/// How to measure: as asked, and else as suits what the model rings like.
+/// Options of the measurement: as requested, and by default as they suit the decay times of the model.
 fn settings(ask: &Ask, surface: &Surface, model: &ModalResponses) -> Result<MeasureOptions, TaskError> {
     let usual = MeasureOptions::for_model(model);
     let length = |value: Option<f64>, usual: f64, field: &'static str| {
@@ -80,7 +81,7 @@ fn settings(ask: &Ask, surface: &Surface, model: &ModalResponses) -> Result<Meas
     })
 }
 
-/// Actuators that are not to be measured.
+/// Indices of the actuators that are not to be measured.
 fn without(ask: &Ask, surface: &Surface) -> Result<Vec<usize>, TaskError> {
     let names = || surface.actuators.iter().map(|actuator| actuator.name.as_str());
     let mut found = Vec::new();
@@ -103,7 +104,7 @@ fn without(ask: &Ask, surface: &Surface) -> Result<Vec<usize>, TaskError> {
     Ok(found)
 }
 
-/// Refuses a drive that is more than full scale.
+/// Returns an error for a drive above full scale.
 fn within(level: f64, scales: &Scales, surface: &Surface) -> Result<(), TaskError> {
     if level > 1.0 {
         return Err(TaskError::Input(format!("`level`: expected at most 1, found {level}")));

@@ -13,12 +13,12 @@ pub struct Scales {
     all: Option<f64>,
     named: BTreeMap<String, f64>,
     output: Option<f64>,
-    /// Whether the device says its scale itself.
+    /// Whether the device itself is in SI units, as the virtual surface is.
     own: bool,
 }
 
 impl Scales {
-    /// The scales of outputs and inputs that the request gives.
+    /// The scales of outputs and inputs from the request, after a check.
     pub fn of(ask: &Ask, surface: &Surface) -> Result<Self, TaskError> {
         let own = ask.device.device == DeviceKind::Virtual;
         let output = ask.device.output_scale;
@@ -41,22 +41,22 @@ impl Scales {
         Ok(Self { all, named, output, own })
     }
 
-    /// Factor from an input's samples to its unit.
+    /// Factor that converts an input's samples to its unit; 1 if unknown.
     pub fn input(&self, name: &str) -> f64 {
         self.named.get(name).copied().or(self.all).unwrap_or(1.0)
     }
 
-    /// Drive, in the actuators' unit, of a sample at full scale.
+    /// Drive that a sample at full scale stands for, in the actuators' unit.
     pub fn full_scale(&self, surface: &Surface) -> f64 {
         self.output.unwrap_or(surface.emission.limit)
     }
 
-    /// Whether an input's size is known; a sign alone (±1 by name) says it too.
+    /// Whether the scale of an input is known; a mere sign (±1 by name) counts as known.
     fn knows(&self, name: &str) -> bool {
         self.own || self.all.is_some() || self.named.contains_key(name)
     }
 
-    /// Reason why absolute lengths and velocities are unknown, if they are.
+    /// Reason why absolute displacements and velocities are unknown; `None` if they are known.
     pub fn unknown(&self) -> Option<String> {
         let mut lacking = Vec::new();
         if !self.knows(PROBE) {
@@ -91,7 +91,7 @@ impl Scales {
     }
 }
 
-/// Refuses a scale of 0, or of an input that does not exist.
+/// Returns an error for a scale of 0, or of an input that does not exist.
 fn known(name: &str, scale: f64, surface: &Surface) -> Result<(), TaskError> {
     if !(scale.is_finite() && scale != 0.0) {
         return Err(TaskError::ask("input_scales", "a number other than 0, as in probe=0.5", scale));

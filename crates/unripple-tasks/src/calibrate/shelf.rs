@@ -1,4 +1,4 @@
-//! Measured points scaled, checked and stored in a library.
+//! Scales, checks and stores measured points in a library.
 
 use super::scale::Scales;
 use crate::TaskError;
@@ -16,27 +16,28 @@ pub const SAID: &str = "said";
 /// Name of the check of responses against a model, and key of its log entries, for the library and for each point.
 pub const CHECK: &str = "model";
 
-/// A library that is being filled.
+/// A library that is being filled with measured responses, and what is needed to scale them.
 pub struct Shelf {
-    /// The library itself.
+    /// The library that is being filled.
     pub library: Library,
-    /// Number of points measured by a probe or by taps; the rest are the actuators' own.
+    /// Number of points measured by a probe or by taps; the others lie at the actuators.
     pub probed: usize,
-    /// Factor on all that is measured at a point.
+    /// Factor by which all that the probe measures is multiplied.
     probe: f64,
-    /// Factor on the signal of each actuator's sensor.
+    /// Factor by which the signal of each actuator's sensor is multiplied.
     pub sensors: Vec<f64>,
-    /// Actuators that are left out: their responses are zero, since what was measured of them is noise.
+    /// Indices of actuators that are left out: their responses are stored as zeros, since what was measured
+    /// of them is noise.
     pub without: Vec<usize>,
-    /// Actuators whose sensor is dead: their own points need not be measured.
+    /// Indices of actuators whose sensor is dead: no responses need be measured at them.
     pub deaf: Vec<usize>,
     /// Points that were stored in this run.
     pub made: BTreeSet<usize>,
 }
 
 impl Shelf {
-    /// A library of which `probed` points are measured by a probe or by taps, and the actuators' own points last;
-    /// `without` are indices of actuators that are left out.
+    /// A library to fill, whose first `probed` points are measured by a probe or by taps and whose last
+    /// points lie at the actuators; `without` are indices of actuators that are left out.
     pub fn new(
         library: Library,
         probed: usize,
@@ -49,12 +50,13 @@ impl Shelf {
         Self { library, probed, probe: scales.input(PROBE), sensors, without, deaf, made }
     }
 
-    /// The same shelf without scales, for taps: their strength follows from the model.
+    /// This shelf with a probe scale of 1, for taps, whose strength follows from the model.
     pub fn by_taps(self) -> Self {
         Self { probe: 1.0, ..self }
     }
 
-    /// Stores the reciprocity error of the responses between actuators, which all sensors' channels give.
+    /// Computes the reciprocity error of the responses between actuators from the channels of all sensors,
+    /// and stores it in the library.
     pub fn reciprocity(&mut self, sensors: &[Channel]) -> Result<(), TaskError> {
         let alive: Vec<usize> = (0..sensors.len()).filter(|a| !self.without.contains(a)).collect();
         let mut flat = Vec::new();
@@ -68,8 +70,8 @@ impl Shelf {
         Ok(self.library.set_reciprocity_error(found.error)?)
     }
 
-    /// Stored responses at the actuators' sensors, with which later recordings are compared; `None` if no sensor's were
-    /// measured. Those of dead or bad sensors are zero.
+    /// Stored responses at the actuators' sensors, with which later recordings are compared; `None` if no
+    /// sensor was measured. Responses at dead or bad sensors are zero.
     pub fn heard(&self) -> Result<Option<Vec<Channel>>, TaskError> {
         let (samples, count) = (self.library.plan().samples, self.sensors.len());
         let known = |sensor: usize| {
@@ -91,8 +93,8 @@ impl Shelf {
         self.sensors.iter().enumerate().map(channel).collect::<Result<Vec<_>, _>>().map(Some)
     }
 
-    /// Quality by thirds of an octave as it is kept, for which room is made; none of taps, whose quality is not known
-    /// by frequency.
+    /// Quality by third-octave bands as it is stored, after making room for it in the library; empty for
+    /// taps, whose quality is not known by frequency.
     fn bands(&mut self, channel: &Channel) -> Result<Vec<Vec<BandQuality>>, StoreError> {
         let middles: Vec<f64> = channel.bands.first().into_iter().flatten().map(|band| band.hz).collect();
         if middles.is_empty() {
@@ -112,7 +114,7 @@ impl Shelf {
         Ok(channel.bands.iter().enumerate().map(row).collect())
     }
 
-    /// Stores a channel as a point's, bad if something is wrong with it.
+    /// Stores the responses of a channel as those of a point, and marks the point as bad if `bad`.
     fn store(&mut self, number: usize, channel: &Channel, bad: bool) -> Result<(), StoreError> {
         let (samples, quality) = self.kept(number, channel);
         let bands = self.bands(channel)?;
@@ -121,14 +123,14 @@ impl Shelf {
         self.library.put_all(&[take])
     }
 
-    /// Whether all that is there was measured in this run.
+    /// Whether all stored points were measured in this run.
     pub fn is_new(&self) -> bool {
         let there = |point: &usize| self.library.state(*point) != Some(PointState::Missing);
         (0..self.library.points().len()).filter(there).all(|point| self.made.contains(&point))
     }
 
-    /// Keeps what a take showed besides responses in a point's log, and forgets what was done to the responses
-    /// before: first, so that no log speaks of other responses than are there.
+    /// Records remarks on a recording in a point's log, and removes the earlier correction from it: first,
+    /// so that no log speaks of other responses than are stored.
     fn note(&mut self, number: usize, channel: &Channel) -> Result<(), StoreError> {
         let said = channel.account.said();
         let stale = |log: &Value| log.get(SAID).is_some() || log.get(CHECK).is_some();
@@ -139,7 +141,7 @@ impl Shelf {
         self.library.log_points(BTreeMap::from([(number, json!({ SAID: said, CHECK: Value::Null }))]))
     }
 
-    /// A channel as it is kept.
+    /// Samples and qualities of a channel as they are stored.
     fn kept(&self, number: usize, channel: &Channel) -> (Vec<f32>, Vec<Quality>) {
         let own = number.checked_sub(self.probed);
         let scale = own.map_or(self.probe, |actuator| self.sensors.get(actuator).copied().unwrap_or(1.0));
@@ -172,7 +174,7 @@ impl Sink for Shelf {
     }
 }
 
-/// What the store keeps of a quality.
+/// Quality of a response as the library stores it.
 fn quality(quality: &unripple_calibrate::signals::Quality) -> Quality {
     Quality {
         signal_to_noise_db: quality.snr_db,

@@ -1,4 +1,4 @@
-//! Measuring by taps: the model by which the force of each is found.
+//! Measurement by taps: the model from which the force of each tap is computed.
 
 use super::campaign::Campaign;
 use super::finish::points as counted;
@@ -12,11 +12,13 @@ use unripple_calibrate::measure::{MeasureOptions, Sink, TapSession, Wires};
 use unripple_calibrate::{FitOptions, Fitted, Verdict};
 use unripple_store::Library;
 
-/// Key of the log entries that say by which model forces were found: that of each point, and of the library for those of the surface file.
+/// Key of the log entries on the model from which the forces of taps are computed: an entry of each point,
+/// and one of the library for points that use the model of the surface file.
 const KEY: &str = "taps";
 
-/// A session of taps, by a model that is fitted to the responses between actuators. Where they give no good one, the surface file's has to
-/// do, and the log of each point that is still to be measured says so, and why.
+/// Prepares a session of taps with a model fitted to the responses between actuators. If no good model can
+/// be fitted, that of the surface file is used, and the log of each point that is still to be measured says
+/// so, and why.
 pub(super) fn session(
     known: &Campaign<'_>,
     shelf: &mut Shelf,
@@ -44,7 +46,8 @@ pub(super) fn session(
     Ok(session)
 }
 
-/// How many points were measured by the model of the surface file, and why, in words; `None` if none was.
+/// Sentence on how many points were measured with the model of the surface file, and why; `None` if none
+/// was.
 fn said(library: &Library) -> Option<String> {
     let log = |point: usize| library.logged_point(point)?.get(KEY);
     let unfitted = |point: &usize| log(*point).is_some_and(|log| log["fitted"] == false);

@@ -14,18 +14,18 @@ use unripple_calibrate::signals::{Band, shift};
 use unripple_calibrate::verify::{self, Checked, Doubted, Verified, VerifyOptions};
 use unripple_store::{Doubt, Library, PointState, Take};
 
-/// The check that finds responses which are those of another point: it needs no model.
+/// Name of the check that finds responses which are copies of another point's; it needs no model.
 const COPIES: &str = "copies";
 
-/// Key of the library's log under which the probe's own delay is kept.
+/// Key of the library's log entry for the probe's delay relative to the sensors.
 const PROBE: &str = "probe";
 
-/// Delays that are not worth another copy of the library, in samples. Two hundredths of a sample turn 3 kHz by half a
-/// degree.
+/// Largest delay that is not worth a correction of the library, in samples. Two hundredths of a sample turn
+/// 3 kHz by half a degree.
 const NONE: f64 = 0.02;
 
-/// Checks each probed point against a model fitted to the sensors' recordings, records doubts, and corrects responses for the probe's own
-/// delay and for gains that differ from those of the other points.
+/// Checks each probed point against a model fitted to the sensors' recordings, records doubts, and corrects
+/// responses for the probe's delay and for gains that differ from those of the other points.
 pub fn check(
     shelf: &mut Shelf,
     surface: &Surface,
@@ -73,7 +73,7 @@ fn probed(
     SampledResponses::new(ports, places, conditions, library.plan().samples, data).map_err(TaskError::work)
 }
 
-/// Responses of actuators at each other, as far as they were measured.
+/// Responses between actuators, as far as they were measured.
 fn heard(shelf: &Shelf, surface: &Surface, settings: &MeasureOptions) -> Result<Measured, TaskError> {
     let (library, count) = (&shelf.library, surface.actuators.len());
     let mut responses = vec![Vec::new(); count * count];
@@ -95,20 +95,21 @@ fn heard(shelf: &Shelf, surface: &Surface, settings: &MeasureOptions) -> Result<
     Ok(measured.limited_to(Band::within(from, to)))
 }
 
-/// Correction of a point's responses: a delay that was removed, and a factor.
+/// Correction of a point's responses: the delay that was removed, and the factor that was applied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Taken {
-    /// A delay, in s.
+    /// Delay that was removed, in s.
     delay: f64,
-    /// A factor on the samples.
+    /// Factor by which the samples were multiplied.
     times: f64,
 }
 
 impl Taken {
     const NOTHING: Self = Self { delay: 0.0, times: 1.0 };
 
-    /// As the point's log has it, for the `n`th of those that were read. The log is written before the responses: where these are still
-    /// what it began with, whoever wrote it was stopped in between.
+    /// The correction in the log of a point, which is the `n`th of `probed`. The log is written before the
+    /// responses: where these are still those from before the correction, the run was stopped in between,
+    /// and the earlier correction holds.
     fn of(library: &Library, point: usize, (probed, n): (&SampledResponses, usize)) -> Self {
         let Some(log) = library.logged_point(point).and_then(|log| log.get(CHECK)) else {
             return Self::NOTHING;
@@ -119,7 +120,8 @@ impl Taken {
         Self { delay: number("delay_s", 0.0), times: number("times", 1.0) }
     }
 
-    /// For the log of a point from whose responses it is taken, which are those of the `n`th now.
+    /// The entry for a point's log: this correction, the earlier one, and a checksum of the responses (the
+    /// `n`th of `probed`) before it.
     fn told(self, before: Self, (probed, n): (&SampledResponses, usize)) -> Value {
         json!({
             "delay_s": self.delay,
@@ -139,8 +141,8 @@ fn checksum(probed: &SampledResponses, n: usize) -> String {
     format!("{:016x}", samples.fold(OFFSET, add))
 }
 
-/// Takes delays, and gains that are not those of the others, out of the library's responses, and keeps what was done in each point's
-/// log.
+/// Removes delays, and differences of gain from the other points, from the library's responses, and records
+/// the correction in each point's log.
 fn correct(
     library: &mut Library,
     points: &[usize],
@@ -186,12 +188,13 @@ fn correct(
     Ok(library.log(PROBE, said)?)
 }
 
-/// The delay that was taken out before, in s, if any was: where nothing shows another, it is that of all points.
+/// The delay that was removed earlier, in s, if any was: unless another is found, it holds for all points.
 fn before(taken: &[Taken]) -> Option<f64> {
     median(taken.iter().map(|taken| taken.delay).filter(|delay| *delay != 0.0))
 }
 
-/// Records the doubts. Without a model, earlier doubts of a model stay for points that were not measured again.
+/// Records the doubts. If no model was compared, doubts from an earlier comparison stay for points that
+/// were not measured again.
 fn doubt(shelf: &mut Shelf, points: &[usize], found: &Verified) -> Result<(), TaskError> {
     let of = |check: &str, doubt: &Doubted| {
         Doubt::of(check, &doubt.what).at(doubt.points.iter().map(|p| points[*p]).collect())
@@ -221,7 +224,7 @@ fn earlier(shelf: &Shelf) -> Vec<Doubt> {
     shelf.library.doubts().iter().filter(|doubt| doubt.check == CHECK).filter_map(left).collect()
 }
 
-/// Keeps what was found in the library's log.
+/// Records the result of the check in the library's log.
 fn say(shelf: &mut Shelf, points: &[usize], found: &Verified, asked: bool) -> Result<(), TaskError> {
     let library = &mut shelf.library;
     let log = match &found.model {

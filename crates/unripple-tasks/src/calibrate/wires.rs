@@ -14,9 +14,9 @@ pub const WIRING: &str = "wiring";
 pub struct Found {
     /// Actuators that are left out, by index: no sensor records them, or the caller named them.
     pub dead: Vec<usize>,
-    /// Notes on dead actuators that nobody had named.
+    /// Notes on dead actuators that the test found and the request does not name.
     pub notes: Vec<String>,
-    /// Other faults, with which the user chose to go on.
+    /// Other wiring faults, which the user chose to accept.
     pub faults: Vec<String>,
 }
 
@@ -24,11 +24,11 @@ pub struct Found {
 pub struct Asked<'a> {
     /// The actuators' names.
     actuators: Vec<&'a str>,
-    /// Those to be left out.
+    /// Names of the actuators to be left out.
     without: &'a [String],
-    /// Whether the model is believed.
+    /// Whether measurements are compared with the model.
     model: bool,
-    /// Whether to go on whatever is found.
+    /// Whether to continue whatever faults are found.
     any: bool,
 }
 
@@ -43,14 +43,15 @@ impl<'a> Asked<'a> {
         }
     }
 
-    /// Whether a fault is none: `--without` says so, or it is the model's, and that is not believed.
+    /// Whether a fault is to be ignored: `--without` names its channel, or it follows from the model, with
+    /// which nothing is to be compared.
     fn knows(&self, fault: &str) -> bool {
         self.without.iter().any(|name| fault.contains(&format!("`{name}`")))
             || (!self.model && !fault.ends_with("is silent"))
     }
 
-    /// Evaluates the result of the wiring test. Dead actuators are left out, unless they are more than half of all: then the fault is not
-    /// theirs.
+    /// Evaluates the result of the wiring test. Dead actuators are left out, unless they are more than half
+    /// of all: then the fault must lie elsewhere.
     pub fn judge(&self, report: &WiringReport) -> Result<Found, TaskError> {
         let silent: Vec<&str> =
             report.outputs.iter().filter(|lead| lead.silent).map(|lead| lead.name.as_str()).collect();

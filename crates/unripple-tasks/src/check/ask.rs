@@ -5,7 +5,7 @@ use crate::record::Request;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Which surface file is to be checked.
+/// Which surface file to check.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {

@@ -1,4 +1,4 @@
-//! `check`: all faults of a surface file.
+//! `check`: lists all faults of a surface file.
 
 mod ask;
 mod report;

@@ -8,13 +8,13 @@ use unripple_store::{Fault, FileFaults};
 /// All faults of a surface file.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The surface as it was named.
+    /// The surface as the request names it.
     pub surface: String,
     /// Whether the file has no fault.
     pub ok: bool,
     /// Each fault with line and column, in the file's order; at most a hundred.
     pub faults: Vec<Fault>,
-    /// Number of faults beyond those listed; absent for a file without faults.
+    /// Number of faults beyond those in `faults`; absent for a file without faults.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub omitted: Option<usize>,
     /// Remarks on a file without faults, if any.
@@ -23,7 +23,7 @@ pub struct Report {
     /// The faults together with the lines of the file that they are in, for the text report.
     #[serde(skip)]
     pub file: Option<Box<FileFaults>>,
-    /// The surface's own name and its number of actuators, where there is no fault.
+    /// Name of the surface in its file and its number of actuators; `None` if the file has faults.
     #[serde(skip)]
     pub named: Option<(String, usize)>,
 }

@@ -1,4 +1,4 @@
-//! A command by its name.
+//! Performs a command by its name.
 
 use super::done::{Done, default_of};
 use super::list::{TASKS, find};
@@ -6,7 +6,7 @@ use crate::record::{Request, asked};
 use crate::{Progress, TaskError, rerun};
 use serde_json::Value;
 
-/// Names of the commands that can be done by name: all tasks, and `rerun`.
+/// Names of the commands that [`run`] performs: all tasks, and `rerun`.
 pub const COMMANDS: [&str; TASKS.len() + 1] = {
     let mut names = [rerun::Ask::COMMAND; TASKS.len() + 1];
     let mut at = 0;
@@ -29,7 +29,7 @@ pub fn default_ask(command: &str) -> Result<Value, TaskError> {
     }
 }
 
-/// Performs a command; fields that its request leaves out have their defaults.
+/// Performs a command by its name; fields that are absent from the request `ask` get their defaults.
 ///
 /// ```
 /// use unripple_tasks::{Silent, commands};
@@ -54,7 +54,8 @@ pub fn run(command: &str, ask: Value, progress: &mut dyn Progress) -> Result<Don
     }
 }
 
-/// The error of a command that is none of the `known` ones, with the nearest of them.
+/// The error for a command that is not among the `known` ones; it suggests the one with the most similar
+/// name.
 pub fn unknown(command: &str, known: &[&str]) -> TaskError {
     let nearest = unripple_store::nearest(command, known.iter().copied());
     let nearest = nearest.map_or_else(String::new, |name| format!(" (nearest: {name})"));

@@ -5,7 +5,7 @@ use crate::{Progress, Report, TaskError, folder};
 use serde_json::Value;
 use std::path::PathBuf;
 
-/// What came of a task: its report, for programs and for people.
+/// Result of a task: its report, as JSON for programs and as text for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Done {
     /// The report with the record of its run, as indented JSON.
@@ -17,7 +17,7 @@ pub struct Done {
 }
 
 impl Done {
-    /// What a report says; its JSON holds the record where one is given.
+    /// Converts a report to JSON and text; the JSON includes `record`, if there is one.
     ///
     /// # Errors
     /// [`TaskError::Work`] of what JSON cannot hold.
@@ -38,7 +38,7 @@ pub fn default_of<A: Request + Default>() -> Result<Value, TaskError> {
     serde_json::to_value(A::default()).map_err(TaskError::work)
 }
 
-/// Performs a task whose request is JSON.
+/// Performs the task `run`, with its request as JSON.
 ///
 /// # Errors
 /// Those of [`asked`], of [`Record::of`] and of the task.
@@ -53,7 +53,7 @@ pub fn perform<A: Request, R: Report>(
     Done::of(&run(&ask, progress)?, Some(&record))
 }
 
-/// Does what a record holds once more with its results sent elsewhere.
+/// Repeats a recorded run of the task `run`, with its results written to `output`.
 ///
 /// # Errors
 /// Those of [`Record::ask`] and of the task.

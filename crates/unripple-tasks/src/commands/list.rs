@@ -12,13 +12,13 @@ use std::path::PathBuf;
 
 /// A task as a command.
 pub(crate) struct Command {
-    /// Its name, in lower case.
+    /// Name of the command, in lower case.
     pub(crate) name: &'static str,
-    /// Its default request, as JSON.
+    /// Returns the default request of the command, as JSON.
     pub(crate) default_ask: fn() -> Result<Value, TaskError>,
-    /// Performs it, from its request as JSON.
+    /// Performs the command, from its request as JSON.
     pub(crate) run: fn(Value, &mut dyn Progress) -> Result<Done, TaskError>,
-    /// Does what a record of it holds once more, with results sent elsewhere.
+    /// Repeats a recorded run of the command, with its results written to another path.
     pub(crate) again: fn(&Record, Option<PathBuf>, &mut dyn Progress) -> Result<Done, TaskError>,
 }
 
@@ -34,13 +34,13 @@ macro_rules! commands {
     };
 }
 
-/// The tasks in the order in which a surface comes to be: designed, simulated, driven, measured, played.
+/// The tasks in the order in which a surface is developed: designed, simulated, driven, measured, played.
 pub(super) const TASKS: &[Command] = &commands![
     check, design, modes, materials, focus, waveform, stroke, field, compare, respond, calibrate, fit,
     export, drift, doctor, devices, play
 ];
 
-/// The task of some name, if there is one.
+/// The task called `name`; `None` if there is none.
 pub(crate) fn find(name: &str) -> Option<&'static Command> {
     TASKS.iter().find(|task| task.name == name)
 }

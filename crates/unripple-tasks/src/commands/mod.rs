@@ -1,4 +1,5 @@
-//! All tasks by their names, with asks and reports as JSON: for other languages, and for runs that are repeated.
+//! All tasks by their names, with requests and reports as JSON: for other languages, and for runs that are
+//! repeated.
 
 mod by_name;
 mod done;

@@ -7,15 +7,15 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple::focus::Method;
 
-/// Where every method is to focus, how strongly, and on which surfaces.
+/// Request to compare focusing methods: targets, level, methods and surfaces.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
-    /// Further surfaces, on which the same is done.
+    /// Further surfaces, on which the methods are compared too.
     pub others: Vec<SurfaceAsk>,
-    /// What all surfaces are called in the report, one text for each; by default each has its own name.
+    /// Names of all surfaces in the report, one for each; by default the names in their files.
     pub labels: Vec<String>,
     /// Methods to be compared with time reversal; by default every method if there is one surface, only `concentrate` if there are several.
     #[serde(with = "names::methods")]
@@ -24,25 +24,26 @@ pub struct Ask {
     pub points: Vec<PointAsk>,
     /// Shapes to be in focus.
     pub shapes: Vec<ShapeAsk>,
-    /// How strong each drive is to be.
+    /// Level to which each drive is scaled.
     pub level: LevelAsk,
     /// Window T in s; by default the one that `design` recommends for each surface.
     pub window_s: Option<f64>,
     /// Evaluate drives on modes up to this frequency, in Hz; by default up to twice the top of the band.
     pub judge_hz: Option<f64>,
-    /// Leave out the tradeoffs of each method's parameter, which take half of the time, and the figure that shows them. On several
-    /// surfaces they are always left out, and the figure shows the methods alone.
+    /// Leave out the tradeoff curves of the methods' parameters, which take half of the time, and the
+    /// figure that shows them. On several surfaces the curves are always left out, and the figure shows the
+    /// methods alone.
     pub no_tradeoffs: bool,
     /// Write no figure.
     pub no_figures: bool,
-    /// Columns of a page that the figure is as wide as: 1 (86 mm) or 2 (178 mm); by default 2.
+    /// Width of the figure in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default 2.
     pub columns: Option<usize>,
     /// Folder for the report and figure; by default no file is written.
     pub output: Option<PathBuf>,
 }
 
-/// Methods that are compared on several surfaces by default: the reference, and the one of most contrast. A table of all methods on all
-/// surfaces would be too long to read.
+/// Methods that are compared on several surfaces by default: time reversal as the reference, and the method
+/// with the most contrast. A table of all methods on all surfaces would be too long to read.
 const ON_SEVERAL: [Method; 2] = [Method::TimeReversal, Method::Concentrate];
 
 impl Ask {
@@ -51,7 +52,8 @@ impl Ask {
         std::iter::once(&self.surface).chain(&self.others)
     }
 
-    /// The methods in the order of the report: time reversal, to which the others are related, and those asked for.
+    /// The methods in the order of the report: time reversal, to which the others are related, and the
+    /// requested ones.
     pub(super) fn chosen(&self) -> impl Iterator<Item = Method> {
         let asked: &[Method] = match (self.methods.as_slice(), self.others.as_slice()) {
             ([], []) => &Method::ALL,

@@ -1,4 +1,4 @@
-//! What methods do on one of the surfaces that are compared.
+//! Results of all methods on one of the surfaces that are compared.
 
 use super::Ask;
 use super::failed::{Failed, survived};
@@ -16,20 +16,21 @@ use unripple::focus::{Method, Options};
 /// Results of all methods on one surface, one row each, and the tradeoff curves of their parameters.
 #[derive(Clone, Debug, Serialize)]
 pub struct Compared {
-    /// What the surface is called among those compared.
+    /// Name of the surface in the comparison.
     pub label: String,
-    /// The surface's own name.
+    /// Name of the surface in its file.
     pub surface: String,
     /// Window T, in s.
     pub window_s: f64,
-    /// Reason for the default window; absent if the request gave a window.
+    /// Reason for the default window; absent if the request sets the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window_why: Option<String>,
-    /// Number of modes that drives were computed from: those of the band.
+    /// Number of modes that drives were computed from: those in the surface's band.
     pub modes: usize,
     /// Highest frequency of the modes that drives were evaluated on, in Hz.
     pub judged_to_hz: f64,
-    /// Reason why these modes end at the top of the band, where those up to the default frequency are out of reach.
+    /// Reason why the modes for evaluation do not reach the default frequency or accuracy; absent if they
+    /// do.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub judged_to_why: Option<String>,
     /// Results of every method that did not fail, time reversal first.
@@ -39,15 +40,17 @@ pub struct Compared {
     pub failed: Vec<Failed>,
     /// Tradeoff curves of the methods that have a parameter; empty on several surfaces, and if `no_tradeoffs` was requested.
     pub fronts: Vec<Front>,
-    /// Results of the method `felt` for increasing weights of the drive's energy, after those of time reversal; empty where `fronts` is.
+    /// Results of time reversal, followed by those of the method `felt` for increasing weights of the
+    /// drive's energy; empty on several surfaces, and if `no_tradeoffs` was requested.
     pub felt: Vec<Row>,
-    /// The line on the window, where the caller gave none.
+    /// Sentence on the default window; `None` if the request sets the window.
     #[serde(skip)]
     pub(super) window_text: Option<String>,
 }
 
-/// Computes and evaluates the drive of every method on a surface, and where there is no other surface the tradeoff curves of the methods'
-/// parameters. `of` says in stages which surface it is, where there are several.
+/// Computes and evaluates the drive of every method on a surface, and on a single surface also the tradeoff
+/// curves of the methods' parameters. `of` begins the names of stages with that of the surface, if there
+/// are several.
 pub(super) fn on(
     ask: &Ask,
     surface: &Surface,
@@ -124,7 +127,8 @@ fn rows(
     Ok((rows, failed))
 }
 
-/// The row of time reversal, to which tradeoff curves are related, as it is before it is divided by itself.
+/// The row of time reversal, to which tradeoff curves are related, before its values are divided by
+/// themselves.
 fn reversal(rows: &[Row]) -> Result<Row, TaskError> {
     let found = rows.iter().find(|row| row.method == Method::TimeReversal.name());
     found
@@ -132,7 +136,7 @@ fn reversal(rows: &[Row]) -> Result<Row, TaskError> {
         .ok_or_else(|| TaskError::Work("time reversal: expected among the methods, found none".into()))
 }
 
-/// Number of modes of a surface's responses; samples have none.
+/// Number of modes of a surface's responses; 0 for sampled responses.
 fn modes(responses: &Responses) -> usize {
     match responses {
         Responses::Modal(modal) => modal.poles.len(),

@@ -9,20 +9,20 @@ use unripple::focus::Method;
 pub struct Failed {
     /// Name of the method.
     pub method: &'static str,
-    /// Reason in words; for a tradeoff curve it names the value of the method's parameter.
+    /// Reason of the failure; for a tradeoff curve it names the value of the method's parameter.
     pub why: String,
 }
 
 /// A surface on which nothing could be compared, and why.
 #[derive(Clone, Debug, Serialize)]
 pub struct FailedSurface {
-    /// What the surface is called among those compared.
+    /// Name of the surface in the comparison.
     pub label: String,
-    /// Reason in words, such as a target outside the surface.
+    /// Reason of the failure, such as a target outside the surface.
     pub why: String,
 }
 
-/// Result of a method; `None` if it failed, which is noted in `failed`.
+/// Result of a method; `None` if it failed, in which case its error is added to `failed`.
 ///
 /// # Errors
 /// [`TaskError::Cancelled`].

@@ -7,14 +7,14 @@ use unripple::field::TargetFigures;
 use unripple::focus::Method;
 use unripple_plot::{Along, Axis, Dash, Figure, Ink, Layer, Line, Mark, Panel, Plot, Points, Rule, Scale};
 
-/// Abscissae and ordinates of a front, as drawn.
+/// Function that selects abscissae and ordinates from a tradeoff curve.
 type Drawn = fn(&Front) -> (Vec<f64>, Vec<f64>);
 
-/// A felt figure of a target.
+/// Function that selects a metric of what is felt from those of a target.
 type Felt = fn(&TargetFigures) -> Option<f64>;
 
-/// Draws contrast against the energy that a given peak takes, contrast against the peak at the drive limit, and the level felt outside the
-/// target against the drive that a given felt level takes.
+/// Draws contrast against the drive energy for a given peak, contrast against the peak at the drive limit,
+/// and the felt level at the target relative to elsewhere against the drive for a given felt level.
 pub fn draw(rows: &[Row], fronts: &[Front], felt: &[Row]) -> Figure {
     // What is felt is not made for contrast.
     let rows: Vec<&Row> = rows.iter().filter(|row| row.method != Method::Felt.name()).collect();
@@ -66,7 +66,8 @@ fn plot(label: &str, fronts: &[Front], drawn: Drawn, marks: (Vec<f64>, Vec<f64>)
     Plot { x: Axis::log(label), y: Axis::log("Contrast"), layers, ..Plot::default() }
 }
 
-/// Background and worst spot as felt, against the drive for the same level.
+/// Felt level at the target relative to the background and to the worst spot, against the drive for the
+/// same felt level.
 fn quiet(felt: &[Row]) -> Plot {
     let of = |figure: Felt, row: &Row| row.targets.first().and_then(figure).unwrap_or(f64::NAN);
     let mut layers: Vec<Layer> = Vec::new();
@@ -87,20 +88,21 @@ fn quiet(felt: &[Row]) -> Plot {
     }
 }
 
-/// A figure of a row.
+/// Function that selects a quantity from a row.
 type Quantity = fn(&Row) -> Option<f64>;
 
-/// Marks of the methods, each with its own on every panel.
+/// Marks of the methods, the same on every panel.
 const MARKS: [Mark; 7] =
     [Mark::Disc, Mark::Square, Mark::Ring, Mark::Triangle, Mark::Diamond, Mark::Cross, Mark::Plus];
 
-/// Height of a surface's line in mm: that of its name and some room.
+/// Height of a surface's line in mm: room for its name.
 const LINE_MM: f64 = 5.0;
 
 /// Least and greatest height of all lines in mm, so that a frame is not flat and a figure fits a page.
 const HEIGHT_MM: [f64; 2] = [20.0, 160.0];
 
-/// Draws contrast, felt contrast and energy of every method, a line for each surface; nothing if none of them is known.
+/// Draws contrast, felt contrast and energy of every method, a line for each surface; `None` if no value is
+/// known.
 pub fn beside(surfaces: &[Compared]) -> Option<Figure> {
     let quantities: [(Axis, Quantity); 3] = [
         (Axis::log("Contrast"), |row| row.targets.first()?.contrast),
@@ -123,7 +125,8 @@ pub fn beside(surfaces: &[Compared]) -> Option<Figure> {
     })
 }
 
-/// One quantity, a mark for each method on the line of each surface, the first surface at the top.
+/// Plot of one quantity, with a mark for each method on the line of each surface, the first surface at the
+/// top.
 fn dots(surfaces: &[Compared], axis: Axis, quantity: Quantity) -> Option<Plot> {
     let upwards = || surfaces.iter().rev().enumerate();
     let names = upwards().map(|(_, on)| on.label.clone()).collect();

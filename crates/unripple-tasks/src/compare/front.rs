@@ -8,14 +8,14 @@ use crate::{Progress, TaskError, go_on};
 use serde::Serialize;
 use unripple::focus::{Focuser, Method, Options};
 
-/// Tradeoff curve of a focusing method: figures at each value of one of its parameters.
+/// Tradeoff curve of a focusing method: metrics at each value of one of its parameters.
 #[derive(Clone, Debug, Serialize)]
 pub struct Front {
     /// Name of the method.
     pub method: &'static str,
     /// Name of the parameter: `strength` or `push`.
     pub knob: &'static str,
-    /// Values of the parameter.
+    /// Values of the parameter, one for each point of the curve.
     pub at: Vec<f64>,
     /// Contrast at the first target and its focal instant.
     pub contrast: Vec<f64>,
@@ -25,16 +25,19 @@ pub struct Front {
     pub peak: Vec<f64>,
 }
 
-/// Strengths at which a method is tried, closer where it is near its own limit and contrast changes fastest.
+/// Values of `strength` at which a method is evaluated, closer together near 1, where contrast changes
+/// fastest.
 const STRENGTHS: [f64; 7] = [0.0, 0.3, 0.6, 0.8, 0.9, 0.96, 0.99];
-/// Strengths at which `robust` is tried: fewer, since planning for several plants takes its time.
+/// Values of `strength` at which `robust` is evaluated: fewer, since planning for several states of the
+/// surface takes time.
 const ROBUST: [f64; 4] = [0.0, 0.7, 0.95, 0.99];
-/// Parameters at which `felt` is tried: `economy`, the weight of energy, and `worst`, the weight of the worst spot that
-/// goes with it.
+/// Parameters at which `felt` is evaluated: `economy`, the weight of energy, and the weight `worst` of the
+/// worst spot that goes with it.
 const ECONOMIES: [[f64; 2]; 5] = [[0.01, 0.04], [0.06, 0.04], [0.2, 0.05], [0.5, 0.06], [1.5, 0.08]];
 const PUSHES: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.85, 0.95];
 
-/// The tradeoff curves of those methods among `rows` that have a parameter, and the rows of what is felt elsewhere.
+/// The tradeoff curves of those methods among `rows` that have a parameter, and the rows of `felt` for
+/// increasing weights of energy.
 pub(super) fn both(
     ground: &Ground<'_>,
     rows: &[Row],
@@ -52,8 +55,8 @@ pub(super) fn both(
     Ok((fronts, felt))
 }
 
-/// Rows of `felt` for increasing weights of energy, after the row of time reversal: level felt outside the target
-/// against the drive.
+/// The row of time reversal, followed by rows of `felt` for increasing weights of energy: level felt
+/// outside the target against the drive.
 fn felt(
     ground: &Ground<'_>,
     reversal: Row,
@@ -122,7 +125,7 @@ fn front(
     })
 }
 
-/// An error with the value of the parameter at which it came up.
+/// Adds to an error the value of the parameter at which it occurred.
 fn at(error: TaskError, knob: &str, value: f64) -> TaskError {
     match error {
         TaskError::Cancelled => TaskError::Cancelled,

@@ -24,7 +24,7 @@ pub struct Report {
     pub(super) level: Level,
 }
 
-/// Results on one surface, or on several; as JSON those on one stand in the report itself.
+/// Results on one surface, or on several; in JSON, results on one surface are fields of the report itself.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum On {
@@ -49,7 +49,7 @@ impl Report {
         }
     }
 
-    /// Whether surfaces have to be told apart.
+    /// Whether there are several surfaces, so that each must be named.
     fn has_several(&self) -> bool {
         matches!(self.on, On::Several { .. })
     }

@@ -9,15 +9,15 @@ use unripple::act::{Act, Note, Strength, power};
 use unripple::field::{DriveFigures, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
 
-/// Results of one method. The drive is emitted at the level asked for, or at the drive limit where that level is beyond
-/// it.
+/// Results of one method. Its drive has the requested level, or is at the drive limit if that level exceeds
+/// the limit.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Name of the method.
     pub method: &'static str,
     /// Time to prepare the method for the surface, in s.
     pub plan_s: f64,
-    /// Time to compute the drive for the targets after that, in s.
+    /// Time to compute the drive for the targets once the method is prepared, in s.
     pub drive_s: f64,
     /// Drive energy for a given peak velocity at the first target, relative to time reversal (ratio).
     pub energy_for_peak: f64,
@@ -27,14 +27,14 @@ pub struct Row {
     pub peak_at_limit: f64,
     /// Contrast at the first target at the drive limit (ratio).
     pub contrast_at_limit: f64,
-    /// Figures of every target.
+    /// Metrics of every target.
     pub targets: Vec<TargetFigures>,
-    /// Figures of the drive.
+    /// Metrics of the drive.
     pub drive: DriveFigures,
     /// Mean mechanical power that the actuators give to the sheet, in W, over the whole drive or its last period.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_mechanical_power_w: Option<f64>,
-    /// Strength of the drive compared with its limits.
+    /// Level of the drive relative to its limits.
     pub level: Strength,
     /// Notes on the drive.
     pub notes: Vec<Note>,
@@ -43,12 +43,12 @@ pub struct Row {
     pub(super) trade: Trade,
 }
 
-/// Makes and evaluates the drive of one method.
+/// Computes and evaluates the drive of one method.
 pub fn judge(ground: &Ground<'_>, method: Method) -> Result<Row, TaskError> {
     with(ground, &Options { method, ..ground.options.clone() })
 }
 
-/// Computes and evaluates the drive that some options give.
+/// Computes and evaluates the drive for `options`, which include the method.
 pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     let start = Instant::now();
     let focuser = Focuser::new(ground.known, options).map_err(TaskError::input)?;
@@ -83,8 +83,8 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     })
 }
 
-/// Relates the energies, felt drives and peaks of all rows to those of the first row: ratios, and dB for the felt
-/// drives.
+/// Relates the energies, drives for a felt level, and peaks of all rows to those of the first row: as
+/// ratios, and in dB for the drives.
 pub fn relate(rows: &mut [Row]) {
     let first = rows.first().map_or([f64::NAN; 2], prices);
     let peak = rows.first().map_or(f64::NAN, |row| row.peak_at_limit);
@@ -95,7 +95,8 @@ pub fn relate(rows: &mut [Row]) {
     });
 }
 
-/// Energy per squared peak of the first target, and dB of drive rms per felt level.
+/// Energy per squared peak velocity at the first target, and rms of the drive relative to the felt level,
+/// in dB.
 fn prices(row: &Row) -> [f64; 2] {
     let target = row.targets.first();
     let peak = target.map_or(f64::NAN, |target| target.peak_velocity_m_s);

@@ -66,7 +66,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(found)
 }
 
-/// Refuses what makes no sense before there is work to lose. Of several surfaces each is asked by itself whether the targets are on it.
+/// Checks the request before any long computation. With several surfaces, targets are checked later on each
+/// surface by itself.
 fn check(ask: &Ask, surfaces: &[Surface]) -> Result<(), TaskError> {
     let window = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
     if let [surface] = surfaces {
@@ -79,7 +80,8 @@ fn check(ask: &Ask, surfaces: &[Surface]) -> Result<(), TaskError> {
     Ok(())
 }
 
-/// What each surface is called: as the request says, by its own name, or as it was asked for where two have the same name.
+/// Name of each surface in the report: its label in the request, the name in its file, or the request's
+/// name for it where two files have the same name.
 fn labels(ask: &Ask, surfaces: &[Surface]) -> Result<Vec<String>, TaskError> {
     let (given, count) = (ask.labels.len(), surfaces.len());
     if given == count {
@@ -96,7 +98,8 @@ fn labels(ask: &Ask, surfaces: &[Surface]) -> Result<Vec<String>, TaskError> {
     Ok(called.collect())
 }
 
-/// Compares the methods on each surface. Of several, those that fail are named and the others go on.
+/// Compares the methods on each surface. If there are several, those that fail are listed with the reason,
+/// and the others continue.
 fn each(
     ask: &Ask,
     surfaces: &[Surface],
@@ -132,7 +135,7 @@ fn first(failed: Vec<(String, TaskError)>) -> TaskError {
     }
 }
 
-/// The figure of a report; none if it was not asked for, or if there is nothing to draw.
+/// The figure of a report; `None` if the request excludes it, or if there is nothing to draw.
 fn drawn(on: &On, ask: &Ask) -> Option<Figure> {
     match on {
         _ if ask.no_figures => None,

@@ -7,7 +7,8 @@ use unripple::act::{Level, Note};
 use unripple::field::TargetFigures;
 use unripple::physics::design::milliseconds;
 
-/// Headings of the columns that say what is compared: of several surfaces the surface too, its window and its modes.
+/// Headings of the first columns: the method; with several surfaces also the surface, its window and its
+/// number of modes.
 const METHOD: [&str; 1] = ["method"];
 const SURFACE: [&str; 4] = ["surface", "method", "window ms", "modes"];
 
@@ -30,13 +31,13 @@ const FIGURES: [&str; 15] = [
     "drive ms",
 ];
 
-/// Rows of all surfaces, as text.
+/// The table of a comparison: rows of all surfaces, to be written as text.
 pub(super) struct Table<'a> {
     /// The surfaces, each with its rows.
     pub surfaces: &'a [Compared],
     /// Whether there are several surfaces, so that each row names its surface.
     pub several: bool,
-    /// The level that was asked for.
+    /// The requested level.
     pub level: Level,
 }
 
@@ -102,7 +103,7 @@ impl Table<'_> {
         })
     }
 
-    /// Notes on all drives, each with the name of what it is on.
+    /// Notes on all drives, each with the name of its method and, with several surfaces, of its surface.
     fn notes(&self) -> impl Iterator<Item = (String, &Note)> {
         self.rows().flat_map(move |(on, row)| {
             let name = match self.several {
@@ -113,7 +114,8 @@ impl Table<'_> {
         })
     }
 
-    /// Highest frequency of the modes that drives are evaluated on, in Hz: the least and the most of all surfaces if they differ.
+    /// Highest frequency of the modes that drives are evaluated on, in Hz, as text: the least and the
+    /// greatest of all surfaces if they differ.
     fn judged_to(&self) -> String {
         let tops = || self.surfaces.iter().map(|on| on.judged_to_hz);
         let [least, most] =
@@ -122,7 +124,7 @@ impl Table<'_> {
     }
 }
 
-/// What all rows have in common, in words.
+/// The sentence above the table: what all rows have in common.
 impl std::fmt::Display for Table<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.surfaces {
@@ -176,7 +178,7 @@ fn figures(row: &Row) -> [String; 15] {
     ]
 }
 
-/// Three digits, as many as a level is worth.
+/// A number with three significant digits, which is as precise as a level is known.
 fn three(value: f64) -> String {
     let digits = (2.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize;
     format!("{value:.digits$}")

@@ -1,10 +1,10 @@
-//! What a drive trades: contrast, energy and peak at the first target.
+//! Quantities that focusing methods trade for each other: contrast, energy and peak at the first target.
 
 use super::ground::Ground;
 use crate::TaskError;
 use unripple::focus::Focused;
 
-/// Contrast, energy per squared peak, peak.
+/// Contrast, drive energy per squared peak velocity, and peak velocity at the first target.
 pub(super) type Trade = [f64; 3];
 
 /// Contrast, energy per squared peak, and peak of a drive, at the first target and its focal instant.

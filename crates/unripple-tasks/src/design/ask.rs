@@ -5,7 +5,7 @@ use crate::record::Request;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// The surface whose tradeoffs are wanted.
+/// The surface whose design tradeoffs are to be computed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {

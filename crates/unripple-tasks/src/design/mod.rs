@@ -1,4 +1,4 @@
-//! `design`: every tradeoff of a surface before anything is built.
+//! `design`: computes every tradeoff of a surface before anything is built.
 
 mod ask;
 mod report;

@@ -1,9 +1,10 @@
-//! The tradeoffs of a surface.
+//! Computes the design tradeoffs of a surface.
 
 use super::{Ask, Report};
 use crate::{Progress, TaskError, go_on};
 
-/// Computes the design figures of a surface: celerities, modes, window, predicted contrast, spot, power at the finger.
+/// Computes the design figures of a surface: wave speeds, modes, window, predicted contrast, spot size,
+/// power at the finger.
 ///
 /// # Errors
 /// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Input`] where a figure has no closed form;

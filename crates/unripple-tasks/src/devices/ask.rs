@@ -4,11 +4,11 @@ use crate::record::Request;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// The JACK server to look at.
+/// Which JACK server to list, besides the other devices.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
-    /// Name of the JACK server to look at; by default JACK's default server.
+    /// Name of the JACK server whose ports are listed; by default JACK's default server.
     pub server: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! `devices`: the devices through which drives can be played.
+//! `devices`: lists the devices through which drives can be played.
 
 mod ask;
 mod report;

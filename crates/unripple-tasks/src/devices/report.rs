@@ -24,7 +24,8 @@ impl crate::Report for Report {
 }
 
 impl Report {
-    /// Of devices that were found, and of the cards that this build knows.
+    /// Makes the report from the devices that were found, and adds the sound cards if this build supports
+    /// them.
     pub(super) fn of(found: &[Found]) -> Self {
         let mut devices: Vec<Value> = found.iter().map(entry).collect();
         let mut text: String = found.iter().map(told).collect();
@@ -33,7 +34,7 @@ impl Report {
     }
 }
 
-/// Sound cards as they can be opened.
+/// Adds the sound cards that can be opened.
 #[cfg(feature = "cards")]
 fn cards(entries: &mut Vec<Value>, text: &mut String) {
     use unripple_devices::cards::{Offer, found};
@@ -67,7 +68,7 @@ fn cards(entries: &mut Vec<Value>, text: &mut String) {
     }
 }
 
-/// Says how to get a program that knows cards.
+/// Adds that this build has no sound cards, and how to get one that does.
 #[cfg(not(feature = "cards"))]
 fn cards(entries: &mut Vec<Value>, text: &mut String) {
     entries.push(json!({ "device": "card", "available": false, "why": HOW_TO_GET_CARDS }));
@@ -142,7 +143,7 @@ fn told(found: &Found) -> String {
     text
 }
 
-/// Channel counts and rates, as far as the kernel says.
+/// Text on channel counts and sample rates, as far as the kernel knows them.
 fn offers(stream: &Stream) -> String {
     let listed = |values: Vec<String>| values.join(", ");
     if stream.channels.is_empty() && stream.rates.is_empty() {

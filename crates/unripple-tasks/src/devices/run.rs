@@ -1,4 +1,4 @@
-//! Looking for devices.
+//! Lists the devices of this machine.
 
 use super::{Ask, Report};
 use crate::{Progress, TaskError, go_on};

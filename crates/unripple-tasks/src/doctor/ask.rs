@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
 
-/// The surface, device and port of touches that are checked.
+/// Which surface, which device and which network port for touches to check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
@@ -14,9 +14,9 @@ pub struct Ask {
     pub surface: SurfaceAsk,
     /// The device that is checked.
     pub device: DeviceAsk,
-    /// UDP port at which touches would arrive.
+    /// UDP port on which touches (TUIO messages) would be received.
     pub tuio: u16,
-    /// Address at which touches would be received.
+    /// Network address on which touches would be received.
     pub listen: IpAddr,
 }
 

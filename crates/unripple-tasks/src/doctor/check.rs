@@ -9,9 +9,9 @@ pub struct Check {
     pub name: &'static str,
     /// Verdict on the stage.
     pub verdict: Verdict,
-    /// Finding, in a sentence.
+    /// What the check found, in a sentence.
     pub found: String,
-    /// Remedy, if there is one.
+    /// How to correct what was found; `None` if nothing is to be done or no remedy is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fix: Option<String>,
 }
@@ -59,7 +59,7 @@ impl Check {
         Self { name, verdict: Verdict::Skipped, found: why.into(), fix: None }
     }
 
-    /// What to do, as the end of a sentence.
+    /// The remedy as text to be added to a sentence; empty if there is none.
     pub(super) fn advice(&self) -> String {
         self.fix.as_ref().map_or_else(String::new, |fix| format!(" → {fix}"))
     }

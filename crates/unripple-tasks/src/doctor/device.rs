@@ -8,7 +8,7 @@ use unripple::core::{Device, Layout, ModalResponses, Point, Responses, State, St
 use unripple_devices::{Expected, WiringOptions, check_wiring};
 use unripple_live::real_time;
 
-/// Opens the device and tries each wire.
+/// Opens the device, and checks its sample rate, the wiring of each actuator and sensor, and lost blocks.
 pub fn checks(
     options: &DeviceAsk,
     surface: &Surface,

@@ -12,17 +12,19 @@ use unripple_live::Window;
 /// A level in dB above threshold that nearly everybody feels: thresholds of persons differ by 6 dB.
 const CLEAR: f64 = 12.0;
 
-/// Contrast below which a focus is hardly one.
+/// Contrast below which a focus is reported as doubtful.
 const WEAK: f64 = 5.0;
 
-/// How many dB the finger must be louder than the worst spot for the focus to be felt as distinct from the rest.
+/// Least difference in dB between the felt level at the focus and the largest one elsewhere, for the focus
+/// to be felt as distinct.
 const APART: f64 = 3.0;
 
-/// Cells of the grid per shortest wavelength: enough for a verdict.
+/// Cells of the evaluation grid per shortest wavelength: enough for a verdict.
 const CELLS: f64 = 4.0;
 
-/// Checks a focus on the model, free and under a finger's load: contrast, felt level, and level felt elsewhere. The drive is computed
-/// from `model`, the modes of the band, and evaluated on those that every other task evaluates drives on.
+/// Checks a focus on the model, with and without the load of a finger: contrast, felt level, and level felt
+/// elsewhere. The drive is computed from `model`, the modes of the band, and evaluated on modes above the
+/// band as well, as in every other task.
 pub fn checks(
     surface: &Surface,
     model: &Responses,

@@ -1,4 +1,4 @@
-//! `doctor`: each stage between a touch and what is felt, checked in turn.
+//! `doctor`: checks each stage between a touch and what is felt, in turn.
 
 mod ask;
 mod check;

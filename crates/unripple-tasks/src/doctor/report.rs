@@ -7,23 +7,23 @@ use std::fmt::Write;
 /// Findings on every stage between a touch and what is felt.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The surface's own name.
+    /// Name of the surface, as its file states it.
     pub surface: String,
     /// Results of all stages, in the order in which a touch passes them.
     pub checks: Vec<Check>,
-    /// Reasons why nothing may be felt, the likeliest first; empty where there is none.
+    /// Reasons why nothing may be felt: failed checks first, then doubtful ones; empty if there are none.
     pub why_you_may_feel_nothing: Vec<String>,
 }
 
 impl Report {
-    /// Of all checks of a surface.
+    /// Makes the report from the name of a surface and the results of its checks.
     pub(super) fn of(surface: String, checks: Vec<Check>) -> Self {
         let why_you_may_feel_nothing = reasons(&checks);
         Self { surface, checks, why_you_may_feel_nothing }
     }
 }
 
-/// What failed first, then what is doubtful.
+/// Sentences on the checks that failed, followed by those that are doubtful.
 fn reasons(checks: &[Check]) -> Vec<String> {
     let of = |verdict: Verdict| {
         let all = checks.iter().filter(move |check| check.verdict == verdict);

@@ -5,7 +5,7 @@ use crate::{DeviceAsk, SurfaceAsk};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// The sheet whose tension is measured, the device, and the duration.
+/// The surface whose tension is measured, the device, and the duration of the measurement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
@@ -18,9 +18,10 @@ pub struct Ask {
     pub seconds: f64,
     /// Largest relative change of tension that is searched for, up and down (0.08 for 8 %).
     pub range: f64,
-    /// Virtual: relative deviation of the simulated sheet's tension from its file.
+    /// For the virtual surface: relative deviation of the simulated tension from that in the surface file.
     pub changed: f64,
-    /// Virtual: relative change of the simulated sheet's tension in a minute, from shortly before the first ping on.
+    /// For the virtual surface: relative change of the simulated tension per minute, from shortly before
+    /// the first ping on.
     pub changing_per_min: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Playing of pings without a break, and recording of the sensors' responses to them.
+//! Plays pings without a break, and records the sensors' responses to them.
 
 use super::Ask;
 use super::known::Known;
@@ -9,27 +9,29 @@ use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{MeasureOptions, Rig, SILENCE, Session, Wires};
 use unripple_calibrate::signals::shift;
 
-/// Silence before the pings in which noise is listened to, in s.
+/// Silence before the pings in which the noise of the sensors is recorded, in s.
 const QUIET: f64 = 0.2;
 
-/// Samples on either side of a stretch that is moved by part of a sample: what is moved in from beyond its ends is of no account there.
+/// Number of extra samples on either side of a stretch that is shifted by part of a sample, so that end
+/// effects stay outside it.
 const MARGIN: usize = 64;
 
-/// Longest course of a virtual tension that is laid out, in s.
+/// Duration for which the tension of a virtual surface is tabulated, in s.
 const LONGEST: f64 = 3600.0;
 
-/// A device at work.
+/// An open device that plays pings and records the sensors' signals.
 pub(super) struct Bench {
     rig: Box<dyn Rig>,
     layout: Layout,
     wires: Wires,
-    /// Factor on each sensor's signal.
+    /// Factor by which each sensor's signal is multiplied.
     scales: Vec<f64>,
     /// Latency from the drive to the recorded signals, in samples; 0 if it is unknown.
     pub latency: f64,
-    /// Recorded signals that were not yet returned, a row for each sensor; they begin a margin before the next period.
+    /// Recorded signals that were not yet returned, a row for each sensor; they begin [`MARGIN`] samples
+    /// before the next period.
     lines: Vec<Vec<f64>>,
-    /// Samples sent since the pings began, and blocks lost before.
+    /// Number of samples sent since the pings began, and of blocks lost before.
     sent: usize,
     lost: u64,
 }
@@ -76,13 +78,14 @@ impl Bench {
         (seconds * self.layout.rate).round() as usize
     }
 
-    /// A drive (actuators x samples) as the device sends it: float32 of full scale.
+    /// Rounds a drive (actuators x samples) to the float32 samples, relative to full scale, that the device
+    /// sends.
     pub fn as_sent(&self, drive: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let full = self.layout.full_scale;
         drive.iter().map(|line| line.iter().map(|x| f64::from((x / full) as f32) * full).collect()).collect()
     }
 
-    /// Root mean square of the sensors' signals while nothing is driven, over all sensors, in their own unit.
+    /// Measures the rms noise of all sensors' signals while nothing is driven, in the sensors' unit.
     ///
     /// # Errors
     /// Those of the device; [`TaskError::Cancelled`].
@@ -105,8 +108,8 @@ impl Bench {
         Ok((squares / count.max(1) as f64).sqrt())
     }
 
-    /// Plays a drive once more from its beginning, `period` samples long, and returns the recorded signals, one for the sensor of each
-    /// actuator.
+    /// Plays a repeated drive for one more period of `period` samples, and returns the signals that respond
+    /// to it, one for each actuator's sensor.
     ///
     /// # Errors
     /// Those of the device; [`CalibrateError::Gap`] if it lost blocks; [`TaskError::Cancelled`].
@@ -137,12 +140,13 @@ impl Bench {
         Ok(self.lines.iter_mut().map(one).collect())
     }
 
-    /// Samples that every line has.
+    /// Number of samples that all recorded signals have.
     fn heard(&self) -> usize {
         self.lines.iter().map(Vec::len).min().unwrap_or(0)
     }
 
-    /// One block of a drive that is repeated every `period` samples, silent after its end.
+    /// Exchanges one block with the device: sends a drive that is repeated every `period` samples, and
+    /// appends the recorded signals.
     fn exchange(&mut self, drive: &[Vec<f64>], period: usize) -> Result<(), TaskError> {
         let Layout { block, full_scale, .. } = self.layout;
         let mut sent = vec![0.0_f32; self.layout.outputs.len() * block];
@@ -161,7 +165,7 @@ impl Bench {
     }
 }
 
-/// Tension of a virtual surface over its nominal tension against time (s), as the request gives it.
+/// Table of time (s) and of the requested tension of a virtual surface relative to its nominal tension.
 fn course(ask: &Ask) -> Vec<(f64, f64)> {
     let at = |seconds: f64| 1.0 + ask.changed + ask.changing_per_min * seconds / 60.0;
     match (ask.changed, ask.changing_per_min) {

@@ -1,4 +1,4 @@
-//! Loss of peak and contrast of a focus whose drive was made for an earlier tension.
+//! Loss of peak and contrast of a focus whose drive was computed for an earlier tension.
 
 use crate::TaskError;
 use crate::place::anywhere;
@@ -8,26 +8,27 @@ use unripple::core::{Drive, ModalResponses, Point, Responses, Surface};
 use unripple::field::{Field, Instant};
 use unripple::focus::{Options, Target, focus};
 
-/// Cells of the grid per shortest wavelength: enough for a share.
+/// Cells of the evaluation grid per shortest wavelength: enough for ratios.
 const CELLS: f64 = 4.0;
 
-/// Peak and contrast of a time-reversal focus that is made from the earlier responses, on the sheet as it was and as it is.
+/// Peak and contrast of a time-reversal focus that is computed from the earlier responses, on the sheet
+/// before and after its change of tension.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Cost {
     /// Place of the focus, in m.
     pub at_m: [f64; 2],
     /// Window of the drive, in s: the default window of `focus`.
     pub window_s: f64,
-    /// Peak velocity on the sheet as it is, over that on the sheet as it was (ratio).
+    /// Peak velocity after the change of tension, relative to that before (ratio).
     pub peak_share: f64,
-    /// Contrast on the sheet as it was.
+    /// Contrast before the change of tension (ratio).
     pub contrast_before: f64,
-    /// Contrast on the sheet as it is.
+    /// Contrast after the change of tension (ratio).
     pub contrast_now: f64,
 }
 
 impl Cost {
-    /// Evaluates a focus made from the responses `before` on these and on the responses `now`.
+    /// Computes a focus from the responses `before`, and evaluates it on them and on the responses `now`.
     ///
     /// # Errors
     /// Those of making and judging the focus.
@@ -47,7 +48,7 @@ impl Cost {
         })
     }
 
-    /// Contrast on the sheet as it is, over that on the sheet as it was (ratio).
+    /// Contrast after the change of tension, relative to that before (ratio).
     pub fn contrast_share(&self) -> f64 {
         self.contrast_now / self.contrast_before
     }

@@ -12,14 +12,14 @@ use unripple_store::Library;
 /// device to float32 leave far less, an actuator that is off its place by a millimetre far more.
 const MODEL: f64 = 0.02;
 
-/// Words for what a measured tension is compared with where that is a surface file.
+/// Name of the reference of a measured tension if that is a surface file.
 pub(super) const FILE: &str = "the surface file";
 
 /// Reference of the drift measurement: the surface, the responses of its model, and its dead actuators.
 pub(super) struct Known {
-    /// The surface as its file or its library has it.
+    /// The surface as its file or its library describes it.
     pub surface: Surface,
-    /// Responses of its model, computed from the file or fitted to the library.
+    /// Responses of the surface's model, computed from the file or fitted to the library.
     pub modal: ModalResponses,
     /// What the measured tension is compared with, in words.
     pub against: String,
@@ -33,7 +33,8 @@ struct Measured {
     name: String,
     heard: Heard,
     fitted: Fitted,
-    /// Factor on each sensor's signal, and the drive of a sample at full scale if the library's log gives it.
+    /// Factor by which each sensor's signal is multiplied, and the drive that a sample at full scale stands
+    /// for, if the library's log states it.
     scales: Vec<f64>,
     output: Option<f64>,
 }
@@ -127,25 +128,28 @@ impl Known {
         self.library.as_ref().and_then(|library| library.scales.get(actuator)).copied().unwrap_or(1.0)
     }
 
-    /// Drive of a sample at full scale, in the actuators' unit, if the library's log gives it.
+    /// Drive that a sample at full scale stands for, in the actuators' unit, if the library's log states
+    /// it.
     pub fn output_scale(&self) -> Option<f64> {
         self.library.as_ref().and_then(|library| library.output)
     }
 
-    /// Band of the pings, as shares of the band's top: high frequencies tell most, and a fit leaves out the highest.
+    /// Lowest and highest frequency of the pings, as shares of the top of the surface's band: high
+    /// frequencies are most sensitive to tension, and a fit leaves out the highest.
     pub fn ping_band(&self) -> [f64; 2] {
         let fitted = |library: &Measured| library.heard.band[1] / self.modal.conditions.band[1];
         let top = self.library.as_ref().map_or(1.0, fitted);
         PingOptions::default().band.map(|share| share * top)
     }
 
-    /// Share of the sensors' signals that the model leaves unexplained.
+    /// Share of the sensors' signals that the model may leave unexplained.
     pub fn unexplained(&self) -> f64 {
         self.library.as_ref().map_or(MODEL, |library| library.fitted.unexplained().max(MODEL))
     }
 
-    /// Tracker of the tension, for a ping (actuators x samples) and a noise (rms on each sensor). For a library, the response to the ping
-    /// as computed from the measured responses counts as no change.
+    /// Tracker of the tension, for a ping (actuators x samples), a noise (rms on each sensor) and the
+    /// largest relative change `range`. For a library, zero change is the tension that explains the
+    /// response to the ping as computed from the measured responses.
     ///
     /// # Errors
     /// Those of the trackers; [`TaskError::Work`] of a library that its model does not explain.
@@ -167,8 +171,9 @@ impl Known {
     }
 }
 
-/// Bending's share of the energy of each oscillation of a surface: that of the sheet's own mode nearest in frequency, which what hangs on
-/// it moves little. An endless sheet's share would be off by some per cent near clamped edges.
+/// Share of bending in the stiffness of each mode of a surface with its actuators: that of the bare sheet's
+/// mode nearest in frequency, which actuators change little. The share on an endless sheet would be off by
+/// some per cent near clamped edges.
 fn bending_shares(surface: &Surface, modal: &ModalResponses) -> Result<Vec<f64>, TaskError> {
     let modes =
         Modes::solve(surface, modal.conditions.band[1], judge::accuracy(surface)).map_err(TaskError::work)?;
@@ -181,7 +186,8 @@ fn bending_shares(surface: &Surface, modal: &ModalResponses) -> Result<Vec<f64>,
     Ok(modal.poles.iter().map(nearest).collect())
 }
 
-/// Sensor signals that a drive would have caused when the library was measured, as long as its responses.
+/// Sensor signals that a drive would have caused when the library was measured, as long as the library's
+/// responses.
 fn sounded(drive: &[Vec<f64>], heard: &Heard) -> Vec<Vec<f64>> {
     let rate = heard.measured.rate;
     let pairs: Vec<&Vec<f64>> = heard.measured.pairs.iter().flat_map(|pairs| &pairs.responses).collect();

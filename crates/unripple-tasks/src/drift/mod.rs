@@ -1,4 +1,5 @@
-//! `drift`: how much a sheet's tension differs from the one that its responses assume, and whether it keeps changing.
+//! `drift`: measures how much a sheet's tension differs from the one that its responses assume, and whether
+//! it keeps changing.
 
 mod ask;
 mod bench;

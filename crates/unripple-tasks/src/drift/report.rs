@@ -9,18 +9,20 @@ use unripple_calibrate::{Drift, Ping};
 /// Number of standard errors above which a change or a rate counts as real.
 const SURE: f64 = 3.0;
 
-/// Rate below which a sheet counts as steady, as a share in a minute: it turns the phases of waves at 3 kHz that ring for 70 ms by half a
-/// radian, which a focus hardly notices.
+/// Relative change of tension per minute below which a sheet counts as steady: it turns the phases of waves
+/// at 3 kHz that ring for 70 ms by half a radian, which a focus hardly notices.
 const STEADY: f64 = 1e-3;
 
-/// Rate above which it is no drift, as a share in a minute: a film under a warm hand changes by a hundredth or so. A model that does not
-/// fit, as that of a surface file which was never fitted, follows what it cannot explain at such rates.
+/// Relative change of tension per minute above which the estimate counts as wrong: a film under a warm hand
+/// changes by a hundredth or so. A model that does not fit, as that of a surface file which was never
+/// fitted, follows what it cannot explain at such rates.
 const FASTEST: f64 = 0.1;
 
-/// Relative error of a rate that is to be expected: rates come out low by a sixth where the band ends at 1 kHz, and by less in wider bands.
+/// Expected relative error of the rate of change: rates come out low by a sixth where the band ends at 1
+/// kHz, and by less in wider bands.
 const RATE: f64 = 0.2;
 
-/// Share of its peak and contrast that a focus keeps where nothing need be done.
+/// Share of its peak and contrast that a focus must keep for the change of tension to need no action.
 const KEPT: f64 = 0.95;
 
 /// Verdict on a sheet's tension.
@@ -54,11 +56,12 @@ impl Serialize for Verdict {
 /// Estimate of the tension after one ping.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Step {
-    /// Seconds since the first ping began.
+    /// Time from the start of the first ping to the end of this ping's observation, in s.
     pub time_s: f64,
-    /// Relative change of tension; `None` where no tension explains the sensors' signals.
+    /// Relative change of tension since the reference; `None` if no tension explains the sensors' signals.
     pub change: Option<f64>,
-    /// Rms of what the model leaves unexplained of the sensors' signals, over the noise and model error that are allowed for.
+    /// Rms residual of the sensors' signals after the fit of the tension, relative to the rms expected from
+    /// noise and model error (ratio).
     pub excess: f64,
     #[serde(skip)]
     error: f64,
@@ -67,7 +70,7 @@ pub struct Step {
 }
 
 impl Step {
-    /// From an observation that ended at a time (s).
+    /// Makes the estimate from an observation that ended at `time_s` (s).
     pub(super) fn of(time_s: f64, drift: &Drift) -> Self {
         match *drift {
             Drift::Followed { tension, error, excess, .. } => {
@@ -87,18 +90,19 @@ pub struct Report {
     version: &'static str,
     command: &'static str,
     surface: String,
-    /// What the tension is compared with, in words.
+    /// Name of the reference that the tension is compared with.
     pub against: String,
     /// Verdict on the tension.
     #[serde(rename = "state")]
     pub verdict: Verdict,
-    /// Relative change of tension at the end; absent where no tension explains the sensors' signals.
+    /// Relative change of tension at the end of the measurement; absent where no tension explains the
+    /// sensors' signals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub change: Option<f64>,
     /// Standard error of `change`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub change_error: Option<f64>,
-    /// Relative change of tension in a minute.
+    /// Rate of the relative change of tension, per minute.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub change_per_min: Option<f64>,
     /// Standard error of `change_per_min`.
@@ -108,29 +112,29 @@ pub struct Report {
     tension_assumed_n_per_m: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     tension_n_per_m: Option<f64>,
-    /// Rms of what the model leaves unexplained of the last ping, over the noise and model error that are allowed for.
+    /// Rms residual of the last ping, relative to the rms expected from noise and model error (ratio).
     excess: f64,
     /// Share of the sensors' signals that the model may leave unexplained.
     model_error: f64,
-    /// Root mean square of the noise on the sensors, in their own unit.
+    /// Rms noise of the sensors' signals, in the sensors' unit.
     pub noise: f64,
     /// Latency from drive to sensor signal, in samples.
     pub latency_samples: f64,
-    /// Level of a ping where it is felt most, in dB above threshold.
+    /// Largest felt level of a ping anywhere, in dB above the threshold of touch.
     ping_felt_db: f64,
-    /// Peak and contrast of a focus that was made for the earlier tension.
+    /// Peak and contrast of a focus that was computed for the earlier tension, before and after the change.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub focus: Option<Cost>,
-    /// Estimates after each ping.
+    /// Estimates of the tension after each ping.
     pub pings: Vec<Step>,
-    /// The rate that was found, where it is above [`FASTEST`].
+    /// The estimated rate of change per minute, if it is above [`FASTEST`].
     #[serde(skip)]
     too_fast: Option<f64>,
 }
 
 impl Report {
-    /// Report on all pings. `missed` is the relative change of tension that the model's error may look like; `law` is the relative error of
-    /// the law by which modes follow tension.
+    /// Report on all pings. `missed` is the relative change of tension that the model's error may be
+    /// mistaken for; `law` is the relative error of the law by which modes depend on tension.
     pub(super) fn of(known: &Known, ping: &Ping, pings: Vec<Step>, (missed, law): (f64, f64)) -> Self {
         let last = pings.last().copied();
         let followed = last.and_then(|step| step.change.map(|change| (step, change)));
@@ -184,7 +188,7 @@ impl Report {
         }
     }
 
-    /// What is to be done about it.
+    /// What to do about the change of tension.
     fn advice(&self) -> String {
         let little = self.focus.is_none_or(|focus| focus.contrast_share().min(focus.peak_share) >= KEPT);
         match self.verdict {
@@ -204,8 +208,9 @@ impl Report {
     }
 }
 
-/// Rate of the change and its standard error (1/s): a straight line through the estimates of single pings, by least squares, and their
-/// scatter about it. The first is left out, which knows nothing of the rate yet.
+/// Rate of the relative change and its standard error (1/s): the slope of a least-squares line through the
+/// estimates of single pings, and its error from their scatter. The first estimate is left out, since it
+/// contains nothing of the rate yet.
 fn slope(pings: &[Step]) -> Option<[f64; 2]> {
     let known: Vec<[f64; 2]> =
         pings.iter().skip(1).filter_map(|step| Some([step.time_s, step.change?])).collect();
@@ -221,7 +226,7 @@ fn slope(pings: &[Step]) -> Option<[f64; 2]> {
     Some([rate, (left / (count - 2.0).max(1.0) / square).sqrt()])
 }
 
-/// `+0.500 ± 0.001 %` of a share and its error.
+/// A share and its error as text, such as `+0.500 ± 0.001 %`.
 fn percent(share: f64, error: f64) -> String {
     format!("{:+.4} ± {:.4} %", 100.0 * share, 100.0 * error)
 }

@@ -8,17 +8,17 @@ use crate::{DeviceKind, Progress, TaskError, go_on};
 use std::f64::consts::TAU;
 use unripple_calibrate::{Ping, PingOptions, Tracker};
 
-/// Length of an observation, in s: a ping, and until it is over.
+/// Length of an observation, in s: a ping, and its decay.
 const PERIOD: f64 = 0.4;
 
-/// Shortest duration of the pings, in s (three pings, which a rate takes), and longest.
+/// Shortest and longest duration of the measurement, in s: a rate needs three pings.
 const SECONDS: [f64; 2] = [1.2, 3600.0];
 
-/// Largest change that may be looked for, as a share: beyond, another sheet is meant.
+/// Largest relative change of tension that can be searched for: beyond, another sheet is meant.
 const MOST: f64 = 0.5;
 
-/// Relative error of the law by which modes follow tension: it takes bending's share of each mode as it was before, which is right to first
-/// order in the change; for a fit that share is known to 1e-3.
+/// Relative error of the law by which modes depend on tension: it uses the bending share of each mode
+/// before the change, which is right to first order in the change; for a fit that share is known to 1e-3.
 const LAW: f64 = 1e-3;
 
 /// Further relative error of the tension of a fitted model: as large as it was on a virtual film in a band of 1 kHz.
@@ -69,7 +69,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(report)
 }
 
-/// Refuses numbers that make no sense, before there is work to lose.
+/// Returns an error for numbers that make no sense, before any long computation.
 fn check(ask: &Ask) -> Result<(), TaskError> {
     let [least, most] = SECONDS;
     if !(least..=most).contains(&ask.seconds) {
@@ -90,7 +90,7 @@ fn check(ask: &Ask) -> Result<(), TaskError> {
     Ok(())
 }
 
-/// Observations, one for each ping.
+/// Plays the pings, and returns an estimate of the tension after each.
 fn follow(
     ask: &Ask,
     bench: &mut Bench,
@@ -110,8 +110,8 @@ fn follow(
     Ok(steps)
 }
 
-/// Relative change of tension that the model's own error may look like: a mode with decay time τ tells the tension from a phase of ωτ/2,
-/// and each mode of the ping's band has an error of its own.
+/// Relative change of tension that the model's error may be mistaken for: a mode with decay time τ shows
+/// the tension by a phase of ωτ/2, and the errors of the modes in the ping's band are independent.
 fn missed(known: &Known, ping: &PingOptions) -> f64 {
     let top = known.modal.conditions.band[1];
     let [low, high] = ping.band.map(|share| TAU * share * top);

@@ -11,12 +11,13 @@ use std::path::PathBuf;
 pub enum Format {
     /// A folder: a WAV file of float32 for each point, a channel for each actuator, and library.json.
     Wav,
-    /// One file: AES69, convention GeneralFIR-E, points as measurements and actuators as emitters.
+    /// One SOFA file (AES69, convention GeneralFIR-E), with points as measurements and actuators as
+    /// emitters.
     Sofa,
 }
 
 impl Format {
-    /// Name of the format in asks and reports.
+    /// Name of the format in requests and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Wav => "wav",
@@ -25,13 +26,13 @@ impl Format {
     }
 }
 
-/// Which library is to be written, in which format, and where.
+/// Which library to export, in which format, and where.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
     /// A library of responses.
     pub library: PathBuf,
-    /// A folder for WAV, or a file for SOFA. An earlier export is replaced.
+    /// Path of the export: a folder for WAV, or a file for SOFA. An earlier export is replaced.
     pub output: PathBuf,
     /// Format; by default SOFA if the output's name ends in .sofa, WAV if it has no ending.
     pub format: Option<Format>,

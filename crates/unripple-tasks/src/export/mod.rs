@@ -1,4 +1,4 @@
-//! `export`: a library in formats that others read.
+//! `export`: writes a library of responses in formats that other programs read.
 
 mod ask;
 mod report;

@@ -12,9 +12,9 @@ pub struct Report {
     pub version: &'static str,
     /// Name of the task.
     pub command: &'static str,
-    /// The library as it was named.
+    /// Path of the library, as in the request.
     pub library: String,
-    /// `wav` or `sofa`.
+    /// Format of the export: `wav` or `sofa`.
     pub format: &'static str,
     /// Path of the export.
     pub output: String,
@@ -22,11 +22,11 @@ pub struct Report {
     pub points: usize,
     /// Number of points left out because they are missing or bad.
     pub points_left_out: usize,
-    /// Number of points left out because they are bad.
+    /// Number of points left out because they are bad; counted in `points_left_out` too.
     pub points_bad: usize,
     /// Number of actuators.
     pub actuators: usize,
-    /// Samples of each response.
+    /// Number of samples in each response.
     pub samples: usize,
     /// Sample rate of the responses, in Hz.
     pub sample_rate_hz: f64,

@@ -1,4 +1,4 @@
-//! A library, written in another format.
+//! Writes a library of responses in another format.
 
 use super::{Ask, Format, Report};
 use crate::{Progress, TaskError, go_on, source};
@@ -54,7 +54,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     })
 }
 
-/// The format that was asked for, or that the output's name implies.
+/// The requested format, or the one that the output's name implies.
 fn format(ask: &Ask) -> Result<Format, TaskError> {
     let ending = ask.output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let format = match (ask.format, ending.as_deref()) {

@@ -12,9 +12,9 @@ use unripple_calibrate::Interpolation;
 pub enum DriveAsk {
     /// A WAV file with one channel per actuator, in the actuators' units.
     File(PathBuf),
-    /// Samples given in the request itself.
+    /// Samples that the request itself contains.
     Samples {
-        /// One list per actuator, in the actuators' units.
+        /// Samples of the drive: one list per actuator, in the actuators' units.
         channels: Vec<Vec<f64>>,
         /// Sample rate of the drive, in Hz.
         rate_hz: f64,
@@ -27,7 +27,7 @@ impl Default for DriveAsk {
     }
 }
 
-/// Which drive on which surface, and where and when that is measured.
+/// Request to evaluate a drive on a surface: which drive and surface, and at which points and instants.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
@@ -35,14 +35,15 @@ pub struct Ask {
     pub surface: SurfaceAsk,
     /// The drive that is played.
     pub drive: DriveAsk,
-    /// Where to measure, in m; by default where the field is strongest.
+    /// Points at which the motion is evaluated, in m; by default the point with the largest peak velocity.
     pub points_m: Vec<Place>,
-    /// When to measure, in s: one instant for all points, or one per point; by default the instant of each point's
-    /// largest velocity.
+    /// Instants at which the motion is evaluated, in s: one for all points, or one per point; by default
+    /// the instant of each point's largest velocity.
     pub instants_s: Vec<f64>,
-    /// Fingers that rest on the surface, in m, as the surface file describes fingers.
+    /// Places in m where fingers rest on the surface; their mechanical properties are those in the surface
+    /// file.
     pub fingers_m: Vec<Place>,
-    /// Period of a repeated drive, in s: figures are then those of the last full period.
+    /// Period of a repeated drive, in s: the drive is then evaluated over its last full period.
     pub period_s: Option<f64>,
     /// Compute the field with modes up to this frequency, in Hz; by default up to twice the top of the band, at most 0.45 of the
     /// sample rate.
@@ -51,11 +52,13 @@ pub struct Ask {
     pub output: Option<PathBuf>,
     /// Write no figures and no animation.
     pub no_figures: bool,
-    /// Columns of a page that figures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    /// Width of all figures in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default each figure
+    /// has its own width.
     pub columns: Option<usize>,
-    /// Start and end of the animation in s; by default the last 6 ms before the instant and 3 ms after.
+    /// Start and end of the animation in s; by default from 6 ms before the instant at the first point to 3
+    /// ms after it.
     pub movie_s: Option<[f64; 2]>,
-    /// Frames of the animation, at most 5000; 0 for none.
+    /// Number of frames of the animation, at most 5000; 0 for no animation.
     pub frames: usize,
     /// How responses are interpolated for a place between the points of a library.
     #[serde(with = "names::interpolation")]

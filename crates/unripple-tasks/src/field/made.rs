@@ -13,16 +13,18 @@ pub struct Made {
     pub report: Report,
     /// The drive that was played.
     pub drive: Drive,
-    /// Figures, traces and maps.
+    /// Evaluation of the drive's field: metrics, traces at the points, and maps.
     pub judged: Judged,
-    /// Places and instants at which the field was measured.
+    /// Places and instants at which the field was evaluated.
     pub aims: Vec<Aim>,
     /// The surface that was driven.
     pub surface: Surface,
-    /// The responses of the surface. A [`Field`](unripple::field::Field) of these and the drive gives everything else.
+    /// The responses of the surface, from which a [`Field`](unripple::field::Field) of the drive gives all
+    /// other results.
     pub responses: Responses,
-    /// Whether absolute lengths and velocities are known: not for a library without a scale.
+    /// Whether absolute displacements and velocities are known; `false` for a library of responses of
+    /// unknown scale.
     pub scaled: bool,
-    /// What the instants are, for figures.
+    /// What happens at the instants of `aims`, for the labels of figures.
     pub when: When,
 }

@@ -1,4 +1,4 @@
-//! The field of a drive, measured.
+//! Evaluates the field of a drive: the motion of the surface.
 
 use super::{Ask, DriveAsk, Made, Report, write};
 use crate::figures::{self, Columns, MOST_FRAMES, When};
@@ -10,7 +10,8 @@ use unripple::core::{Drive, Point, Surface};
 use unripple::field::{Aim, Field, FieldError, fits};
 use unripple_store::read_wav;
 
-/// Measures what a drive does to a surface, and writes that to a folder if one is given.
+/// Evaluates the motion of a surface under a drive, and writes the results to a folder if the request names
+/// one.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; [`TaskError::Cancelled`].
@@ -18,8 +19,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     kept(ask, |progress| open(ask, progress), progress)
 }
 
-/// Does what [`run()`] does, on a surface or responses that are given instead of those that the request names; the record in the folder
-/// holds the request.
+/// Does what [`run()`] does, but on the surface or responses in `source` instead of those that the request
+/// names; the record in the output folder contains the request.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of reading them.
@@ -31,7 +32,8 @@ pub fn run_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<
     kept(ask, given, progress)
 }
 
-/// Measures what a drive does to what `open` gives with it, and keeps that in a folder if one is given.
+/// Evaluates the drive on the surface or responses that `open` returns, and writes the results to a folder
+/// if the request names one.
 fn kept(
     ask: &Ask,
     open: impl FnOnce(&mut dyn Progress) -> Result<(Source, Drive), TaskError>,
@@ -47,7 +49,8 @@ fn kept(
     Ok(made.report)
 }
 
-/// Measures what a drive does to a surface as [`run()`] does, without writing a folder, and returns all data.
+/// Evaluates the motion of a surface under a drive as [`run()`] does, but returns all data and writes no
+/// folder.
 ///
 /// # Errors
 /// Those of [`run()`], except the errors of writing files.
@@ -56,8 +59,8 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     Ok(measured(ask, source, drive, false, progress)?.0)
 }
 
-/// Measures what a drive does to a surface as [`make()`] does, for a surface or responses and a drive that are given instead of those that
-/// the request names.
+/// Does what [`make()`] does, but for the surface or responses in `source` and for `drive`, instead of
+/// those that the request names.
 ///
 /// # Errors
 /// Those of [`make()`], except the errors of reading surface and drive.
@@ -87,12 +90,12 @@ fn driven(ask: &Ask, source: Source) -> Result<(Source, Drive), TaskError> {
     Ok((source, drive))
 }
 
-/// Refuses fields that need a model where there is none.
+/// Returns an error for fields of the request that need a model if the source is a library of responses.
 fn allow(ask: &Ask, source: &Source) -> Result<(), TaskError> {
     source.allows(&[("fingers_m", !ask.fingers_m.is_empty()), ("judge_hz", ask.judge_hz.is_some())])
 }
 
-/// All data, and the animation if it is wanted: both from one field.
+/// Evaluates the field and returns all data, with the animation if `animated`.
 fn measured(
     ask: &Ask,
     source: Source,
@@ -149,7 +152,8 @@ fn measured(
     Ok((Made { report, drive, judged, aims, surface, responses, scaled: !unscaled, when }, movie))
 }
 
-/// Refuses what makes no sense by the request, its surface and the drive alone, so that nobody waits for modes to be told so.
+/// Checks a request, its surface and its drive before any mode is computed, and returns an error for values
+/// that make no sense.
 ///
 /// # Errors
 /// Those of [`run()`] that need neither modes nor a field.
@@ -165,12 +169,13 @@ pub fn check(ask: &Ask, surface: &Surface, drive: &Drive) -> Result<(), TaskErro
     fingers::contacts(&ask.fingers_m, "fingers_m", surface).map(drop)
 }
 
-/// Refuses what makes no sense before there are modes; a library has none to wait for, and refuses the rest by its responses.
+/// Checks the request as [`check`] does if the source is a surface; for a library nothing is left to check
+/// before its responses are used.
 fn before_modes(ask: &Ask, source: &Source, drive: &Drive) -> Result<(), TaskError> {
     source.stored.as_ref().map_or_else(|| check(ask, &source.surface, drive), |_| Ok(()))
 }
 
-/// Refuses numbers that make no sense on any surface.
+/// Returns an error for numbers that make no sense on any surface.
 fn numbers(ask: &Ask) -> Result<(), TaskError> {
     Columns::of(ask.columns)?;
     ask.period_s.map(|period| above_zero(period, "period_s", "s")).transpose()?;
@@ -182,7 +187,8 @@ fn numbers(ask: &Ask) -> Result<(), TaskError> {
     animated(ask.frames, ask.movie_s)
 }
 
-/// Refuses an animation of so many frames over a span (s) that makes no sense.
+/// Returns an error if the number of frames or the span (start and end, in s) of an animation makes no
+/// sense.
 pub(super) fn animated(frames: usize, span: Option<[f64; 2]>) -> Result<(), TaskError> {
     if let Some([from, to]) = span.filter(|[from, to]| !(*from >= 0.0 && to > from && to.is_finite())) {
         return Err(TaskError::ask(
@@ -207,7 +213,8 @@ fn drive(ask: &DriveAsk, surface: &Surface) -> Result<Drive, TaskError> {
     }
 }
 
-/// Where and when to measure: as asked, or at the strongest place and at each place's own peak.
+/// Points and instants of the evaluation: as requested, or by default the point of the largest velocity and
+/// each point's instant of largest velocity.
 fn aims(
     ask: &Ask,
     mut points: Vec<Point>,
@@ -226,7 +233,7 @@ fn aims(
     Ok(points.into_iter().zip(instants).map(|(point, instant)| Aim::at(point, instant)).collect())
 }
 
-/// The place whose velocity is largest while the drive lasts.
+/// The point with the largest peak velocity while the drive lasts.
 fn strongest(field: &Field, drive: &Drive, period: Option<f64>) -> Result<Point, TaskError> {
     let last =
         Aim::at(field.points().first().copied().unwrap_or_default(), drive.duration() - 1.0 / drive.rate());
@@ -236,7 +243,8 @@ fn strongest(field: &Field, drive: &Drive, period: Option<f64>) -> Result<Point,
     best.ok_or_else(|| TaskError::Input("the surface has no point to measure at".into()))
 }
 
-/// When the velocity of each place is largest while the drive lasts, or in its last full period.
+/// The instant (s) at which the velocity of each point is largest while the drive lasts, or in its last
+/// full period.
 fn own_peaks(
     field: &Field,
     drive: &Drive,

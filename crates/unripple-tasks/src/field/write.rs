@@ -11,10 +11,11 @@ use unripple::field::{Aim, Field};
 use unripple_plot::Figure;
 use unripple_store::OutputDir;
 
-/// What the animation shows before the instant of the first figure, and after it, in s.
+/// Default span of the animation before and after the instant at the first point, in s.
 const AROUND: [f64; 2] = [6e-3, 3e-3];
 
-/// Writes report, figures and animation, names the files in the report, and puts the folder in its place.
+/// Writes report, figures and animation, lists the files in the report, and moves the folder to its final
+/// place.
 pub(super) fn write(
     ask: &Ask,
     (out, record): (OutputDir, Record),
@@ -35,7 +36,7 @@ pub(super) fn write(
     folder::finish(out, progress)
 }
 
-/// The figures in the folder of a field, as SVG text by their names.
+/// Draws the figures that the task writes to its folder, and returns their names and SVG texts.
 ///
 /// # Errors
 /// [`TaskError::Work`] of a figure that cannot be drawn.
@@ -57,7 +58,7 @@ fn pictures(made: &Made) -> Vec<(&'static str, Figure)> {
     figures
 }
 
-/// The animation, if there are to be frames.
+/// Draws the animation, unless the request is for 0 frames.
 pub(super) fn movie(
     ask: &Ask,
     surface: &Surface,
@@ -74,8 +75,9 @@ pub(super) fn movie(
     figures::movie(field, &scene(surface, aims, judged), around(aims, ask.movie_s), ask.frames)
 }
 
-/// The animation of a field that was measured, as an animated PNG of the displacement: so many frames over a span (s), by default from 6 ms
-/// before the first place's instant to 3 ms after; `None` on a library, which has no grid.
+/// Draws the displacement as an animated PNG of `frames` frames over `span` (start and end, in s), by
+/// default from 6 ms before the instant at the first point to 3 ms after it; `None` for a library of
+/// responses, which has no regular grid.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of no frame or too many, and of a span that makes no sense or ends after the field is known.
@@ -90,13 +92,13 @@ pub fn animation(made: &Made, span: Option<[f64; 2]>, frames: usize) -> Result<O
     figures::movie(&field, &scene, around(&made.aims, span), frames)
 }
 
-/// The span (s) of an animation: as asked for, or around the first place's instant.
+/// Start and end of an animation in s: as requested, or around the instant at the first point.
 fn around(aims: &[Aim], asked: Option<[f64; 2]>) -> [f64; 2] {
     let instant = aims.first().map_or(0.0, |aim| aim.instant);
     asked.unwrap_or([(instant - AROUND[0]).max(0.0), instant + AROUND[1]])
 }
 
-/// What every map shows besides the field.
+/// What every map shows besides the field: the surface, the points and the focal radius.
 fn scene(surface: &Surface, aims: &[Aim], judged: &Judged) -> Scene {
     let points: Vec<Vec<Point>> = aims.iter().map(|aim| aim.points.clone()).collect();
     Scene::new(surface, &points, judged.measured.focal_radius_m)

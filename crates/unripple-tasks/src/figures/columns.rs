@@ -1,26 +1,28 @@
-//! How wide figures are: of a width of their own, or as wide as columns of a page.
+//! Width of figures: that of each kind of figure, or that of one or two columns of a printed page.
 
 use crate::TaskError;
 use unripple_plot::Figure;
 
-/// Widths of one column of a page and of two, in mm: 3 3/8 and 7 inches, as in the journals of the American Physical Society.
+/// Widths of one and of two columns of a printed page, in mm: 3 3/8 and 7 inches, as in the journals of the
+/// American Physical Society.
 const ONE_MM: f64 = 86.0;
 const TWO_MM: f64 = 178.0;
 
-/// How wide figures are.
+/// Width of figures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Columns {
-    /// Each kind of figure has a width of its own.
+    /// Each kind of figure has its own default width.
     #[default]
     Own,
-    /// As wide as one column of a page, with panels one above the other.
+    /// Figures are as wide as one column of a page, with panels one above the other.
     One,
-    /// As wide as two columns of a page.
+    /// Figures are as wide as two columns of a page.
     Two,
 }
 
 impl Columns {
-    /// The width of figures that a request gives: 1 or 2 columns, or nothing.
+    /// The width of figures from the field `columns` of a request: 1 or 2 columns, or `None` for the
+    /// default.
     ///
     /// # Errors
     /// [`TaskError::Ask`] of another number.

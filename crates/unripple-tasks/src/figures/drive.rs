@@ -6,7 +6,8 @@ use unripple_plot::{Axis, Figure, Trace, Traces, prefixed};
 /// Largest number of channels drawn in one figure: more lanes are too low to be read.
 const MOST: usize = 16;
 
-/// The drive, one lane per actuator; the first sixteen where there are more.
+/// Figure of a drive (in `unit`) against time, one lane per actuator, for at most the first sixteen
+/// actuators.
 pub fn channels(drive: &Drive, unit: &str) -> Figure {
     let shown = drive.channels().len().min(MOST);
     let traces = drive.names().iter().zip(drive.channels()).take(shown);

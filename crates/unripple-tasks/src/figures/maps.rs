@@ -5,13 +5,14 @@ use unripple::core::{Point, Surface};
 use unripple::field::{self, Maps, Measured};
 use unripple_plot::{ColourMap, Colours, Figure, Grid, Map, Marker, Panel, Ring, Scatter, Symbol, prefixed};
 
-/// Pieces that a full turn of a round rim is drawn in. At the size of a page a circle of so many looks round.
+/// Number of straight pieces in which a full circle of a rim is drawn. At the size of a page a circle of so
+/// many looks round.
 const TURN: usize = 240;
 
 /// What every map of one surface shows besides the field: rim, actuators, targets and their focal discs.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The rim as closed polygons, in m.
+    /// The rims of the surface and of its holes as closed polygons, in m.
     pub outline: Vec<Ring>,
     /// Actuators, targets and focal discs.
     pub markers: Vec<Marker>,
@@ -40,7 +41,8 @@ impl Scene {
         Self { outline, markers }
     }
 
-    /// The same with the places of the largest velocity outside the focal discs, each with its share of the peak.
+    /// This scene with markers where the velocity outside the focal discs is largest, each labelled with
+    /// its share of the peak.
     fn with_worst_spots(&self, measured: &Measured) -> Self {
         // Small enough that its name stands beside it.
         let radius = measured.focal_radius_m / 8.0;
@@ -63,7 +65,8 @@ impl Scene {
         }
     }
 
-    /// A panel of one value per point of the maps: a field on a grid, discs at a library's own points.
+    /// A panel with one value per point of the maps: a field on a grid, or discs at the points of a
+    /// library.
     fn panel(&self, maps: &Maps, values: &[f32], title: impl Into<String>, colours: Colours) -> Panel {
         if let Some(cells) = &maps.grid {
             return self.map(drawn(cells, values), title, colours).into();
@@ -81,7 +84,7 @@ impl Scene {
     }
 }
 
-/// One value per point of a field's grid as a grid to draw.
+/// Converts values at the points of a field's grid to a grid that can be drawn.
 pub fn drawn(cells: &field::Grid, values: &[f32]) -> Grid {
     Grid {
         columns: cells.columns,
@@ -112,16 +115,16 @@ fn milliseconds(seconds: f64) -> String {
     format!("{:.2}\u{a0}ms", seconds * 1e3)
 }
 
-/// An instant (s) as titles give it.
+/// An instant (s) as text for titles.
 fn time(instant: f64) -> String {
     format!("t\u{a0}=\u{a0}{}", milliseconds(instant))
 }
 
-/// Differences of time below this, in s, are none: half of the last digit that titles give.
+/// Difference of time, in s, below which two instants count as the same: half of the last digit in titles.
 const AT_ONCE: f64 = 5e-6;
 
-/// Maps of velocity at the first target's instant, and of displacement when that of the first target is largest, with both instants in
-/// their titles; `None` without targets.
+/// Maps of the velocity at the first target's instant, and of the displacement at the instant when that of
+/// the first target is largest; titles state both instants. `None` without targets.
 pub fn snapshots(scene: &Scene, measured: &Measured, when: When) -> Option<Figure> {
     let maps = &measured.maps;
     let (v, u) = (maps.at_peak.first()?, maps.at_displacement_peak.first()?);
@@ -145,7 +148,7 @@ pub fn snapshots(scene: &Scene, measured: &Measured, when: When) -> Option<Figur
     Some(side_by_side(left, right, &described))
 }
 
-/// Maps of the largest velocity and displacement at each place over the whole time measured.
+/// Maps of the largest velocity and displacement at each place over the whole evaluated time.
 pub fn peaks(scene: &Scene, measured: &Measured) -> Figure {
     let maps = &measured.maps;
     let title = "largest over time";
@@ -159,10 +162,10 @@ pub fn peaks(scene: &Scene, measured: &Measured) -> Figure {
     side_by_side(left, right, described)
 }
 
-/// Decibels below the largest value at which the map of what is felt ends.
+/// Range of the map of felt levels, in dB below its largest value.
 const FELT_RANGE: f64 = 30.0;
 
-/// Map of the largest vibration at each place over the whole time measured, as felt, in dB above the threshold of
+/// Map of the largest felt level at each place over the whole evaluated time, in dB above the threshold of
 /// touch; `None` where nothing moves.
 pub fn felt(scene: &Scene, measured: &Measured) -> Option<Figure> {
     let maps = &measured.maps;

@@ -1,4 +1,4 @@
-//! Figures of a drive and its field, from measured data.
+//! Figures of a drive and of its evaluated field.
 
 mod columns;
 mod drive;
@@ -18,7 +18,7 @@ use crate::TaskError;
 use unripple_plot::{Figure, PRINT_DPI, pngs};
 use unripple_store::OutputDir;
 
-/// Each figure as SVG text, by its name.
+/// Draws named figures, and returns the name and SVG text of each.
 ///
 /// # Errors
 /// [`TaskError::Work`] of a figure that cannot be drawn.
@@ -26,8 +26,8 @@ pub fn svgs(figures: &[(&str, Figure)]) -> Result<Vec<(String, String)>, TaskErr
     figures.iter().map(|(name, figure)| Ok(((*name).to_owned(), figure.draw()?.svg().to_owned()))).collect()
 }
 
-/// Writes each figure as NAME.svg, NAME.pdf and NAME.png, and its data as NAME.csv or, of several panels, NAME-a.csv and so on; returns the
-/// file names.
+/// Writes each figure as NAME.svg, NAME.pdf and NAME.png, and its data as NAME.csv (NAME-a.csv and so on
+/// for several panels); returns the file names.
 pub fn write(out: &OutputDir, figures: &[(&str, Figure)]) -> Result<Vec<String>, TaskError> {
     let drawings = figures.iter().map(|(_, figure)| figure.draw()).collect::<Result<Vec<_>, _>>()?;
     let pictures = pngs(&drawings, PRINT_DPI)?;

@@ -1,4 +1,4 @@
-//! The animated field, as APNG.
+//! The animation of a field, as an animated PNG (APNG).
 
 use super::Scene;
 use super::maps::{drawn, scale};
@@ -13,8 +13,8 @@ pub const MOST_FRAMES: usize = 5000;
 /// Largest number of cells of all frames together, whose values take 400 MB. With twice this value, it takes twice the memory.
 const MOST_CELLS: usize = 50_000_000;
 
-/// Refuses an animation of a field before that is evaluated: more frames than memory holds at its cells, or a span (s) that ends after the
-/// field is known.
+/// Checks the request for an animation before the field is evaluated: returns an error if its frames do not
+/// fit in memory, or if its span (start and end, in s) ends after the field is known.
 ///
 /// # Errors
 /// [`TaskError::Ask`] that names `frames` or `movie_s`.
@@ -36,8 +36,8 @@ pub fn room(field: &Field, frames: usize, span: Option<[f64; 2]>) -> Result<(), 
     }
 }
 
-/// An animated PNG of the displacement over the surface at `frames` instants from `from` to `to` seconds; `None`
-/// without a grid.
+/// An animated PNG of the displacement over the surface at `frames` instants from `from` to `to` seconds;
+/// `None` if the field has no grid.
 pub fn movie(
     field: &Field,
     scene: &Scene,

@@ -7,8 +7,9 @@ use unripple_plot::{Axis, Figure, Ink, Rule, Traces, prefixed};
 /// Largest number of targets whose traces are drawn: the palette has seven colours, and more lines cannot be followed.
 const MOST: usize = 8;
 
-/// Velocity and displacement of the targets against time, sampled at `rate` (Hz), with the instant of the first target as a dashed line;
-/// for a target of several points, of its first point.
+/// Figure of velocity and displacement at the targets against time, sampled at `rate` (Hz), with the
+/// instant of the first target as a dashed line. For a target of several points, the traces are those of
+/// its first point.
 pub fn traces(targets: &[TargetFigures], traces: &[Trace], rate: f64, when: When) -> Figure {
     let units = |pick: fn(&Trace) -> &Vec<f64>, unit: &str| {
         let largest = traces.iter().flat_map(pick).fold(0.0, |m: f64, v| m.max(v.abs()));
@@ -51,14 +52,14 @@ pub fn traces(targets: &[TargetFigures], traces: &[Trace], rate: f64, when: When
     }
 }
 
-/// Where the motion is that all traces show.
+/// Text on where the motion that the traces show takes place.
 fn place(targets: &[TargetFigures]) -> String {
     let target = if targets.len() == 1 { "at the target" } else { "at the targets" };
     let shapes = targets.iter().any(|target| target.points > 1);
     format!("{target}{}", if shapes { ", of a shape at its first point" } else { "" })
 }
 
-/// What the trace of a target is called: its place, to a tenth of a millimetre.
+/// Label of a target's trace: its place, to a tenth of a millimetre.
 fn name(target: &TargetFigures) -> String {
     let [x, y] = target.at_m.map(|m| (m * 1e4).round() / 10.0);
     let shape = if target.points > 1 { "shape " } else { "" };

@@ -1,4 +1,4 @@
-//! What figures call the instant at which targets are evaluated.
+//! What happens at the instant at which targets are evaluated, for the labels of figures.
 
 use unripple::field::TargetFigures;
 
@@ -7,18 +7,19 @@ use unripple::field::TargetFigures;
 pub enum When {
     /// The waves meet at the target.
     Focus,
-    /// The waves meet at one place of many along a path.
+    /// The waves of one pulse of a stroke meet at its place along the path.
     Stroke,
-    /// The waveform that was asked for is largest.
+    /// The waveform that the target is to follow has its peak.
     Waveform,
     /// The velocity of the target is largest.
     Fastest,
-    /// Nothing that is known: the instant was asked for.
+    /// The request specified the instant; what happens at it is not known.
     Asked,
 }
 
 impl When {
-    /// The instant of the first of some targets in words, which say so where others have another one.
+    /// Label for the instant of the first of some targets; it says so if others are evaluated at another
+    /// instant.
     pub(super) fn words(self, targets: &[TargetFigures]) -> &'static str {
         let first = targets.first().map(|target| target.instant_s);
         let shared = targets.iter().all(|target| Some(target.instant_s) == first);

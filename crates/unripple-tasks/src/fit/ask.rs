@@ -5,7 +5,8 @@ use crate::{Place, TaskError};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// The library to which the model is fitted, what is fitted, and where responses of the model are computed.
+/// Request to fit the model to a library: which library, which parameters, and where responses of the
+/// fitted model are computed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
@@ -16,17 +17,19 @@ pub struct Ask {
     pub pitch_m: Option<f64>,
     /// Single points where responses of the fitted model are computed, in m.
     pub points_m: Vec<Place>,
-    /// Largest number of stray point masses to fit.
+    /// Largest number of stray masses to fit: point masses on the sheet that the surface file does not
+    /// contain.
     pub strays: usize,
     /// Largest number of half waves, both directions together, in the variation of tension over the sheet; 0 for
     /// uniform tension.
     pub profile: usize,
-    /// Write the library even if the model is doubtful; the library is then marked, and tasks that use it warn.
+    /// Write the library even if the fitted model is doubtful; the library is then marked, and tasks that
+    /// use it warn.
     pub even_if_doubtful: bool,
     /// Relative accuracy of the modes' frequencies; by default that of the surface that the library describes, or 1e-6.
     pub accuracy: Option<f64>,
-    /// Library to write, with responses of the fitted model, corrected by measured responses near their points. Needs
-    /// points.
+    /// Library to write, with responses of the fitted model, corrected by measured responses near their
+    /// points. Needs `pitch_m` or `points_m`.
     pub output: Option<PathBuf>,
 }
 

@@ -9,14 +9,16 @@ use unripple::core::{Decay, Point, SampledResponses, Surface};
 use unripple_calibrate::{Fitted, Verdict};
 use unripple_store::{Doubt, Library, LibraryPlan};
 
-/// Log entries of a measured library that are copied to the fitted one: its scale, and its dead actuators.
+/// Keys of the log entries that are copied from the measured library to the fitted one: its scale, and its
+/// dead actuators.
 const KEPT: [&str; 2] = ["scale", "dead"];
 
-/// The key of a plan's provenance for the library that the model was fitted to.
+/// Key in the provenance of a library's plan: the library that the model was fitted to.
 pub const FITTED_TO: &str = "fitted to";
 
-/// Writes a library of the fitted model's responses at some points, corrected by nearby probed responses, with as many samples as these.
-/// Responses of dead actuators are zero. Doubts are written first, so that a library filled in part carries them too.
+/// Writes a library of the fitted model's responses at `points`, as long as the probed responses and
+/// corrected by those nearby. Responses of dead actuators are zero. Doubts are written first, so that a
+/// library filled in part carries them too.
 pub fn fill(
     (record, folder): (&Record, &Path),
     source: &Library,
@@ -83,7 +85,7 @@ fn plan(
     }
 }
 
-/// The surface with what the fit found of its sheet and its actuators' places.
+/// The surface with the fitted values of its sheet and of its actuators' places.
 fn as_fitted(nominal: &Surface, fitted: &Fitted) -> Surface {
     let mut surface = nominal.clone();
     let stiffness = unripple::physics::Medium::of(&nominal.sheet).bending_stiffness;

@@ -11,28 +11,28 @@ use unripple_calibrate::measure::MeasureOptions;
 use unripple_calibrate::signals::Band;
 use unripple_store::Library;
 
-/// A point this near to an actuator's place, in metres, is the actuator's own. Places are written in files to a
+/// Distance in metres within which a point counts as lying at an actuator. Places are written in files to a
 /// nanometre.
 const SAME: f64 = 1e-9;
 
-/// The lowest frequency that is fitted, over the lowest that is measured in full. Below, the sweep's fade-in has
-/// changed amplitudes.
+/// Lowest frequency that is fitted, relative to the lowest that is measured in full. Below, the sweep's
+/// fade-in has changed amplitudes.
 const LOWEST: f64 = 1.2;
 
-/// Highest frequency that is fitted, over the top of the band: modes at the very top are cut.
+/// Highest frequency that is fitted, relative to the top of the band: modes at the very top are cut.
 const TOP: f64 = 0.9;
 
 /// Measured responses of a library, split into those between actuators and those at all other points.
 pub struct Heard {
-    /// Responses from actuator to actuator.
+    /// Responses between actuators: from each actuator to the sensors of all.
     pub measured: Measured,
     /// The responses at all other points.
     pub probed: SampledResponses,
     /// Numbers of the points of `probed` in the library, from 1.
     pub numbers: Vec<usize>,
-    /// Actuators that are dead, or left out.
+    /// Indices of actuators that are dead or were left out of the measurement.
     pub dead: Vec<usize>,
-    /// Whether the responses at `probed` were measured by a probe, not by taps.
+    /// Whether the responses in `probed` were measured by a probe rather than by taps on the surface.
     pub probe: bool,
     /// The band that is fitted, in Hz.
     pub band: [f64; 2],
@@ -87,14 +87,13 @@ impl Heard {
     }
 }
 
-/// The library's own numbers of the points that could be read, from 0.
+/// Numbers in the library, from 0, of the points that could be read.
 fn numbers(library: &Library, all: &SampledResponses) -> Vec<usize> {
     let mut done = library.done().into_iter();
     all.points.iter().filter_map(|at| done.find(|point| library.points()[*point] == *at)).collect()
 }
 
-/// Noise of the actuators' responses at each other, root mean square, by the signal to noise that was measured: the
-/// median.
+/// Median rms noise of the responses between actuators, from the measured signal-to-noise ratios.
 fn noise(
     library: &Library,
     all: &SampledResponses,
@@ -114,7 +113,8 @@ fn noise(
     Ok(median(found))
 }
 
-/// The lowest and the highest frequency that a library was measured with, in Hz: what it says, or what `calibrate` sweeps.
+/// The lowest and the highest frequency of the sweeps that a library was measured with, in Hz: as it
+/// states, or else those that `calibrate` uses by default.
 fn swept(library: &Library, surface: &Surface) -> Result<[f64; 2], TaskError> {
     let Some(text) = library.plan().provenance.get(SWEPT) else {
         return Ok(MeasureOptions::default().swept(surface));

@@ -1,4 +1,4 @@
-//! `fit`: the model fitted to the responses between a library's actuators.
+//! `fit`: fits the model to the responses between a library's actuators.
 
 mod ask;
 mod fill;

@@ -10,13 +10,14 @@ use unripple_calibrate::verify::{Checked, Verified, VerifyOptions, check_by};
 
 /// Probed points of a library, by which a fitted model is corrected.
 pub struct Probed {
-    /// Responses of the points that agree with the model, scaled to one gain, with the probe's own delay removed.
+    /// Responses at the points that agree with the model, corrected to a common gain and for the probe's
+    /// delay.
     pub good: SampledResponses,
-    /// Reasons for which other points are left out.
+    /// Reasons why the other points are left out.
     pub left_out: Vec<String>,
-    /// Doubts about the whole recording, for which no point is left out.
+    /// Doubts about the whole recording rather than single points; no point is left out because of them.
     pub doubts: Vec<String>,
-    /// Notes on points that are kept.
+    /// Notes on the check that are no reason for doubt.
     pub notes: Vec<String>,
     /// Gain of the probe relative to the sensors (ratio).
     pub gain: f64,
@@ -58,7 +59,7 @@ impl Probed {
     }
 }
 
-/// Notes on the check, also where nothing was checked.
+/// Notes on the check, or on why nothing could be checked.
 fn notes(found: &Verified) -> Vec<String> {
     let mut notes = found.notes.clone();
     if let Checked::Not { why } = &found.model {
@@ -70,7 +71,7 @@ fn notes(found: &Verified) -> Vec<String> {
     notes
 }
 
-/// Responses of each point times its factor, and earlier by `late` samples.
+/// The responses of each point multiplied by its factor, and shifted to be earlier by `late` samples.
 fn corrected(
     responses: &SampledResponses,
     factors: &[f64],

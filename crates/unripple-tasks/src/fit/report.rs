@@ -28,7 +28,7 @@ pub struct Report {
     /// Reasons why probed points contradict the model; these points are left out.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<String>,
-    /// Doubts about the whole recording.
+    /// Reasons to doubt the measurement as a whole.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub doubts: Vec<String>,
     /// Other notes on the fit.
@@ -47,7 +47,7 @@ pub struct Report {
 /// The library that the fit wrote.
 #[derive(Clone, Debug, Serialize)]
 pub struct Written {
-    /// Path of its folder.
+    /// Path of the library's folder.
     pub library: String,
     /// Number of points in the library.
     pub points: usize,

@@ -17,8 +17,8 @@ const MOST: usize = 8;
 /// reacts to a mass as an endless sheet, which holds for waves much shorter than the distance to the edge.
 const KNOWN: f64 = 4200.0;
 
-/// Fits the model to the responses between a library's actuators, and writes a library of the fitted model's responses if an output is
-/// given.
+/// Fits the model to the responses between a library's actuators, and writes a library of the fitted
+/// model's responses if the request names an output.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of options that make no sense; [`TaskError::Input`] of a library without what is needed; those of the fit and of
@@ -69,8 +69,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(report)
 }
 
-/// Reads the responses between a library's actuators and fits the model to them, with at most `strays` stray masses and `profile` half
-/// waves of the tension's profile.
+/// Reads the responses between a library's actuators and fits the model to them, with at most `strays`
+/// stray masses, and with at most `profile` half waves in the variation of tension over the sheet.
 ///
 /// # Errors
 /// [`TaskError::Input`] of a library without sensors at its actuators; those of the fit; [`TaskError::Cancelled`].
@@ -107,7 +107,7 @@ fn failure(ask: &Ask, why: &str) -> String {
     }
 }
 
-/// Refuses, before minutes of work, a place where the new library cannot be.
+/// Returns an error, before minutes of work, if the new library cannot be at the requested place.
 fn room(ask: &Ask) -> Result<(), TaskError> {
     let Some(folder) = &ask.output else { return Ok(()) };
     let real = |path: &Path| std::fs::canonicalize(path).ok();
@@ -117,7 +117,7 @@ fn room(ask: &Ask) -> Result<(), TaskError> {
     Ok(Library::may_be_at(folder)?)
 }
 
-/// Where responses of the fitted model are wanted.
+/// Points at which responses of the fitted model are requested.
 fn wanted(ask: &Ask, surface: &Surface) -> Result<Vec<Point>, TaskError> {
     let points = grid::places(&surface.outline, ask.pitch_m, &ask.points_m)?;
     if ask.output.is_some() && points.is_empty() {

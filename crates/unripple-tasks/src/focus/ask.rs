@@ -15,9 +15,9 @@ pub enum Losses {
     /// No compensation: the paper's time reversal.
     #[default]
     None,
-    /// Responses are multiplied by e^{+t/τ}, with the surface's one decay time τ.
+    /// Responses are multiplied by e^{+t/τ}, where τ is the single decay time of the surface.
     Uniform,
-    /// Each mode's response is multiplied by e^{+t/τ}, with its own decay time τ.
+    /// Each mode's response is multiplied by e^{+t/τ}, where τ is the decay time of that mode.
     PerMode,
 }
 
@@ -31,24 +31,28 @@ pub struct Ask {
     pub points: Vec<PointAsk>,
     /// Shapes to be in focus.
     pub shapes: Vec<ShapeAsk>,
-    /// How strong the drive is to be.
+    /// Level to which the drive is scaled.
     pub level: LevelAsk,
     /// Focusing method by which the drive is computed.
     #[serde(with = "names::method")]
     pub method: Method,
-    /// Weight of the method's own objective, from 0 (time reversal) to 1 (the extreme of the method); by default that of the method.
+    /// Weight of the velocity to be minimised against the drive's energy, from 0 (time reversal) to 1
+    /// (velocity alone); by default a value that depends on the method.
     pub strength: Option<f64>,
-    /// For `limited`: peak velocity to reach, from that of the unconstrained drive scaled to the limit (0) to that of one-bit (1).
+    /// For `limited`: peak velocity to reach at the targets, from that of the unconstrained drive scaled to
+    /// the limit (0) to that of the one-bit drive (1).
     pub push: f64,
-    /// Largest rms of all actuators together, in the drive's unit.
+    /// Largest rms of all actuators together, √(Σ mean d²) of their drives d, in the drive's unit.
     pub total_rms: Option<f64>,
     /// For `robust`: relative shift of all natural frequencies, up and down, that the drive must tolerate.
     pub spread: f64,
-    /// For `felt`: what is minimised outside the targets, from the mean square of what is felt (0) to its largest value (1).
+    /// For `felt`: balance of what is minimised outside the targets, from the mean square of what is felt
+    /// (0) to the square of its largest value (1).
     pub worst: Option<f64>,
     /// For `felt`: weight of the drive's energy in the objective.
     pub economy: Option<f64>,
-    /// For `inverse`: minimise displacements at the focal instant as well as velocities.
+    /// For `inverse`: minimise the displacements of the modes at the focal instant as well as their
+    /// velocities.
     pub rest: bool,
     /// Window T in s; by default the one that `design` recommends.
     pub window_s: Option<f64>,
@@ -59,13 +63,14 @@ pub struct Ask {
     pub losses: Losses,
     /// Length of a repeated drive in s; by default long enough for a periodic steady state.
     pub duration_s: Option<f64>,
-    /// Places in m where fingers rest on the surface while the drive is evaluated; the drive is computed without them.
+    /// Places in m where fingers rest on the surface while the drive is evaluated; the drive is computed
+    /// without them, unless `finger_aware` is set.
     pub fingers_m: Vec<Place>,
-    /// Compute the drive for the surface with the fingers of `fingers_m` on it.
+    /// Compute the drive for the surface with the fingers of `fingers_m` resting on it.
     pub finger_aware: bool,
     /// For `robust`: relative error of the tension, up and down, that the drive must tolerate.
     pub bear_tension: Option<f64>,
-    /// For `robust`: places in m of fingers that may be there or not.
+    /// For `robust`: places in m of fingers whose presence or absence the drive must tolerate.
     pub bear_fingers_m: Vec<Place>,
     /// Evaluate the drive on this surface instead of the surface or library that it was computed for.
     pub on: Option<SurfaceAsk>,
@@ -77,7 +82,8 @@ pub struct Ask {
     pub output: Option<PathBuf>,
     /// Write no figures.
     pub no_figures: bool,
-    /// Columns of a page that figures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    /// Width of all figures in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default each figure
+    /// has its own width.
     pub columns: Option<usize>,
 }
 

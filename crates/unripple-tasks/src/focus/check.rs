@@ -1,4 +1,4 @@
-//! What is refused of a focus before there is work to lose.
+//! Checks of a request for a focus, made before any long computation.
 
 use super::Ask;
 use super::run::settings;
@@ -12,7 +12,8 @@ use unripple::core::Surface;
 use unripple::focus::{FocusError, Options, Target};
 use unripple::physics::Medium;
 
-/// Refuses what makes no sense by the request and its surface alone, so that nobody waits for modes to be told so.
+/// Checks a request and its surface before any mode is computed, and returns an error for values that make
+/// no sense.
 ///
 /// ```
 /// use unripple_tasks::target::PointAsk;
@@ -36,13 +37,14 @@ pub fn check(ask: &Ask, surface: &Surface) -> Result<(), TaskError> {
     possible(ask, surface, plant.as_ref().unwrap_or(surface), &targets)
 }
 
-/// Refuses a window that no wave of the surface's band fits into.
+/// Returns an error for a requested window that no wave of the surface's band fits into.
 pub(super) fn lasts(ask: &Ask, surface: &Surface) -> Result<(), TaskError> {
     let window = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
     window.map_or(Ok(()), |window| carries(&conditions(surface), window, "window_s"))
 }
 
-/// Refuses what makes no sense of these targets on a surface, with a drive that is evaluated on `plant`.
+/// Checks targets, options and fingers on the surface that the drive is computed for and on `plant`, the
+/// surface that it is evaluated on.
 pub(super) fn possible(
     ask: &Ask,
     surface: &Surface,

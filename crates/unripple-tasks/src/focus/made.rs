@@ -12,14 +12,15 @@ pub struct Made {
     pub report: Report,
     /// The drive as it is emitted: float32 samples in the actuators' unit.
     pub drive: Drive,
-    /// The field of the drive, measured, with traces at the targets and maps.
+    /// Evaluation of the drive's field: metrics, traces at the targets, and maps.
     pub judged: Judged,
-    /// The drive before it was scaled to its level, with its timing.
+    /// The drive before it was scaled to the requested level, with the focal instant of each target.
     pub focused: Focused,
     /// The surface that the drive was evaluated on.
     pub surface: Surface,
-    /// The responses that the drive was made from.
+    /// The responses that the drive was computed from.
     pub responses: Responses,
-    /// Whether absolute lengths and velocities are known: not for a library without a scale.
+    /// Whether absolute displacements and velocities are known; `false` for a library of responses of
+    /// unknown scale.
     pub scaled: bool,
 }

@@ -1,4 +1,4 @@
-//! `focus`: a drive that focuses on points and shapes, its report and its figures.
+//! `focus`: computes a drive that focuses on points and shapes, with its report and its figures.
 
 mod ask;
 mod check;

@@ -13,7 +13,8 @@ use unripple::focus::{LossCorrection, Method, Options};
 use unripple::physics::Medium;
 use unripple::physics::design::Recommended;
 
-/// Computes a drive that focuses on points and shapes, evaluates it, and writes it to a folder if one is given.
+/// Computes a drive that focuses on points and shapes, evaluates it, and writes it to a folder if the
+/// request names one.
 ///
 /// ```
 /// use unripple_tasks::target::PointAsk;
@@ -32,8 +33,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     kept(ask, |progress| source::open(&ask.surface, progress), progress)
 }
 
-/// Does what [`run()`] does, on a surface or responses that are given instead of those that the request names; the record in the folder
-/// holds the request.
+/// Does what [`run()`] does, but on the surface or responses in `source` instead of those that the request
+/// names; the record in the output folder contains the request.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of reading them.
@@ -41,7 +42,8 @@ pub fn run_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<
     kept(ask, |_| Ok(source), progress)
 }
 
-/// Computes and evaluates a drive on what `open` gives, and keeps it in a folder if one is given.
+/// Computes and evaluates a drive on the surface or responses that `open` returns, and writes it to a
+/// folder if the request names one.
 fn kept(
     ask: &Ask,
     open: impl FnOnce(&mut dyn Progress) -> Result<Source, TaskError>,
@@ -58,7 +60,7 @@ fn kept(
     Ok(made.report)
 }
 
-/// Computes and evaluates a drive as [`run()`] does, without writing a folder, and returns all data.
+/// Computes and evaluates a drive as [`run()`] does, but returns all data and writes no folder.
 ///
 /// # Errors
 /// Those of [`run()`], except the errors of writing files.
@@ -66,7 +68,8 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     make_on(ask, source::open(&ask.surface, progress)?, progress)
 }
 
-/// Computes and evaluates a drive as [`make()`] does, for a surface or responses that are given instead of those that the request names.
+/// Computes and evaluates a drive as [`make()`] does, but for the surface or responses in `source` instead
+/// of those that the request names.
 ///
 /// # Errors
 /// Those of [`make()`], except the errors of reading the surface or responses.
@@ -135,13 +138,15 @@ fn shortest(surface: &Surface) -> f64 {
     Medium::of(&surface.sheet).lambda_min(surface.emission.band[1])
 }
 
-/// Adds to a report what is to be said of the library that it is taken from, and of its points that are used in place of others.
+/// Adds notes to a report on the library that its responses are from, and on its points that replace
+/// requested ones.
 fn tell_of_library(report: &mut Report, (told, notes): (String, Vec<Note>), nearby: Vec<Note>) {
     report.notes.extend(notes.into_iter().chain(nearby));
     report.judged_on.get_or_insert(told);
 }
 
-/// The window in s: the one asked for, or the one that the surface and its responses are best used with, which is told as well.
+/// The window in s: the requested one, or the one recommended for the surface and its responses, which is
+/// then returned as well.
 fn window(
     ask: &Ask,
     (surface, responses): (&Surface, &Responses),
@@ -159,7 +164,7 @@ fn window(
     Ok((window, chosen))
 }
 
-/// Fields that need a model, and whether they were given.
+/// Names of the fields that need a model, and whether the request sets them.
 fn needing_modes(ask: &Ask) -> [(&'static str, bool); 7] {
     let on_surface = ask.on.is_some();
     [

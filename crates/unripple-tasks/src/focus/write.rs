@@ -8,7 +8,8 @@ use unripple::core::ActuatorKind;
 use unripple_plot::Figure;
 use unripple_store::{OutputDir, write_wav};
 
-/// Writes all of it, figures of some width where they are wanted, and names the files in the report.
+/// Writes drive, report and (with `drawn`, their width in columns) figures, and lists the files in the
+/// report.
 pub(super) fn write(
     out: &OutputDir,
     made: &mut Made,
@@ -25,7 +26,7 @@ pub(super) fn write(
     Ok(())
 }
 
-/// The figures in the folder of a focus, as SVG text by their names.
+/// Draws the figures that the task writes to its folder, and returns their names and SVG texts.
 ///
 /// # Errors
 /// [`TaskError::Work`] of a figure that cannot be drawn.

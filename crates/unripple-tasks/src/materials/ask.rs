@@ -4,7 +4,7 @@ use crate::record::Request;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Which materials are to be listed.
+/// Which materials to list.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {

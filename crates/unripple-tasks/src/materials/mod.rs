@@ -1,4 +1,4 @@
-//! `materials`: the materials that surface files may name, with the sources of their values.
+//! `materials`: lists the materials that surface files may name, with the sources of their values.
 
 mod ask;
 mod report;

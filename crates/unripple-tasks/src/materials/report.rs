@@ -27,14 +27,14 @@ pub struct MaterialRow {
     pub poisson_ratio: f64,
     /// Stress at yield, or at fracture if brittle, in Pa.
     pub strength_pa: f64,
-    /// Where the values are from, and by how much that source differs from them.
+    /// Source of the values, and by how much the source's values differ from these.
     pub source: &'static str,
 }
 
 /// Columns of a terminal that the text fills.
 const WIDTH: usize = 100;
 
-/// What stands before each line of a source, which the material's own line does not have.
+/// Indentation of the lines that belong to a material, below the line with its name.
 const INDENT: &str = "    ";
 
 impl Report {

@@ -1,4 +1,4 @@
-//! `modes`: natural frequencies and decay times of a surface's modes.
+//! `modes`: computes natural frequencies and decay times of a surface's modes.
 
 mod ask;
 mod report;

@@ -6,25 +6,26 @@ use std::fmt::Write;
 use unripple::act::Note;
 use unripple::core::Pole;
 
-/// Modes listed for people; JSON has all.
+/// Largest number of modes in the text report; JSON has all.
 const LISTED: usize = 40;
 
 /// The modes of a surface, lowest first: of the sheet alone, and of the sheet with its actuators on it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The surface's own name.
+    /// Name of the surface in its file.
     pub surface: String,
-    /// Highest frequency looked for, in Hz.
+    /// Highest frequency up to which modes were computed, in Hz.
     pub max_hz: f64,
-    /// Number of modes.
+    /// Number of modes of the sheet alone.
     pub count: usize,
-    /// Natural frequency of each mode, in Hz.
+    /// Natural frequency of each mode of the sheet alone, in Hz.
     pub frequencies_hz: Vec<f64>,
-    /// Time in which the amplitude of each mode falls to 1/e, in s; `None` where it does not decay.
+    /// Decay time of each mode of the sheet alone, in which its amplitude falls to 1/e, in s; `None` for a
+    /// mode that does not decay.
     pub decay_times_s: Vec<Option<f64>>,
-    /// Share of bending in the stiffness of each mode, 0 to 1; the rest is tension.
+    /// Share of bending in the stiffness of each mode, from 0 to 1; tension makes the remainder.
     pub bending_shares: Vec<f64>,
-    /// A bound of the relative error of the frequencies.
+    /// Upper bound of the relative error of the natural frequencies; 0 if there are rounding errors alone.
     pub relative_error: f64,
     /// The modes with the masses, springs, coils and electrical loads of the actuators; `None` if no actuator loads the sheet.
     pub loaded: Option<Loaded>,
@@ -36,11 +37,12 @@ pub struct Report {
 /// The modes of a sheet with its actuators on it, lowest first.
 #[derive(Clone, Debug, Serialize)]
 pub struct Loaded {
-    /// Number of modes.
+    /// Number of modes of the sheet with its actuators.
     pub count: usize,
-    /// Natural frequency of each mode, in Hz.
+    /// Natural frequency of each mode of the sheet with its actuators, in Hz.
     pub frequencies_hz: Vec<f64>,
-    /// Time in which the amplitude of each mode falls to 1/e, in s; `None` where it does not decay.
+    /// Decay time of each mode of the sheet with its actuators, in which its amplitude falls to 1/e, in s;
+    /// `None` for a mode that does not decay.
     pub decay_times_s: Vec<Option<f64>>,
 }
 
@@ -107,7 +109,7 @@ impl Report {
     }
 }
 
-/// What is not listed of `count` modes.
+/// The line on how many of `count` modes are not listed.
 fn more(count: usize) -> String {
     match count.checked_sub(LISTED) {
         Some(left) if left > 0 => format!("   ... and {left} more; --json lists all\n"),

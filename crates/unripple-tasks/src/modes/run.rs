@@ -7,11 +7,11 @@ use crate::{Progress, TaskError, go_on};
 use unripple::act::less_accurate;
 use unripple::physics::{Accuracy, Modes, loaded_modes};
 
-/// Relative accuracy where nothing else is asked for and it can be had: a phase error of 1e-3 rad at 3 kHz after 50 ms. Smaller, modes that
-/// need a mesh take minutes.
+/// Default relative accuracy, if it can be reached: a phase error of 1e-3 rad at 3 kHz after 50 ms. With a
+/// smaller value, modes that need a mesh take minutes.
 const ACCURACY: f64 = 1e-6;
 
-/// The modes of a surface up to a frequency.
+/// Computes the modes of a surface up to a frequency, for the sheet alone and with its actuators.
 ///
 /// # Errors
 /// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Ask`] if the frequency is not above 0; [`TaskError::Input`] where

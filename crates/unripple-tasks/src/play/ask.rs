@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use unripple::focus::Method;
 use unripple_store::effect_files;
 
-/// Where touches come from.
+/// Sources of touches, and a file to which touches are recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TouchAsk {
@@ -16,11 +16,11 @@ pub struct TouchAsk {
     pub fingers: Option<usize>,
     /// Seed of the synthetic fingers' motion.
     pub seed: u64,
-    /// UDP port at which TUIO 1.1, TUIO 2.0 and OSC are received; the usual one is 3333.
+    /// UDP port on which touches are received as TUIO 1.1, TUIO 2.0 or OSC; the usual one is 3333.
     pub tuio: Option<u16>,
-    /// Port at which WebSocket clients are accepted.
+    /// TCP port on which WebSocket clients that send touches are accepted.
     pub websocket: Option<u16>,
-    /// Address to listen at; by default only this machine can connect.
+    /// Network address for both ports; by default only this machine can connect.
     pub listen: IpAddr,
     /// Multi-touch screens, such as /dev/input/event5.
     pub screen: Vec<PathBuf>,
@@ -46,7 +46,8 @@ impl Default for TouchAsk {
 }
 
 impl TouchAsk {
-    /// Name of the first given field that admits live touches: `tuio`, `websocket` or `screen`; `None` if none is given.
+    /// Name of the first field that is set and through which live touches come: `tuio`, `websocket` or
+    /// `screen`; `None` if none is set.
     pub fn live(&self) -> Option<&'static str> {
         let fields = [
             (self.tuio.is_some(), "`tuio`"),
@@ -67,7 +68,7 @@ pub struct Ask {
     pub device: DeviceAsk,
     /// Effects that touches trigger: the name of built-in effects, a TOML file, or a .haptic, .ahap or .hjif file.
     pub effect: String,
-    /// Where touches come from.
+    /// Sources of touches, and a file to which touches are recorded.
     pub touch: TouchAsk,
     /// Focusing method by which drives are computed.
     #[serde(with = "names::method")]
@@ -75,21 +76,23 @@ pub struct Ask {
     /// Window T in s, at most 10, which is the delay from a touch to its focus; by default the shortest window that reaches three quarters
     /// of the largest contrast.
     pub window_s: Option<f64>,
-    /// Samples per block.
+    /// Number of samples per block of the virtual surface.
     pub block: usize,
-    /// Seconds to play; without it until cancelled, or until a recorded session is over.
+    /// Time to play, in s; by default until cancelled, or until a recorded session is over.
     pub seconds: Option<f64>,
-    /// Let a gain of 1 be the surface's drive limit, however far that moves the sheet. By default a gain of 1 stands for the same
-    /// level above the threshold of touch as a pulse that moves the sheet by about half its thickness.
+    /// Make a gain of 1 in effects stand for the surface's drive limit, however far that moves the sheet.
+    /// By default a gain of 1 stands for the felt level of a pulse that moves the sheet by about half its
+    /// thickness.
     pub full_limit: bool,
     /// Follow the tension of the sheet while playing, from the signals of the actuators' sensors.
     pub follow_tension: bool,
-    /// Play in real time even where nothing requires it.
+    /// Play in real time even if neither the device nor a source of touches requires it.
     pub real_time: bool,
-    /// Virtual: the tension varies by this share, up and down, with a period of a minute.
+    /// For the virtual surface: relative amplitude of a sinusoidal variation of its tension, with a period
+    /// of a minute.
     pub drift: Option<f64>,
-    /// WAV file for the drive that was played, in the actuators' unit; of a run longer than a minute, the first minute. The file of an
-    /// earlier run is replaced.
+    /// WAV file to write the played drive to, in the actuators' unit; of a run longer than a minute, the
+    /// first minute. The file of an earlier run is replaced.
     pub keep_drive: Option<PathBuf>,
 }
 
@@ -114,7 +117,7 @@ impl Default for Ask {
 }
 
 impl Ask {
-    /// Reason why the session runs in real time; `None` if it runs as fast as it can.
+    /// Reason why the session runs in real time, such as its device; `None` if it runs as fast as it can.
     pub fn clock(&self) -> Option<String> {
         let device = || format!("`device` {}", self.device.device.name());
         let real = self.device.is_real().then(device);

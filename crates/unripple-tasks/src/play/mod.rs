@@ -1,4 +1,4 @@
-//! `play`: a surface that is driven live, in answer to touches.
+//! `play`: drives a surface live, in response to touches.
 
 mod ask;
 mod open;

@@ -10,41 +10,44 @@ use unripple_calibrate::{Tracker, Tracking, Warp};
 use unripple_devices::{DevicesError, Feeler, Jack, JackOptions, VirtualOptions};
 use unripple_live::Recovering;
 
-/// Fingers that a virtual surface computes at once, those that are being lifted included. Ten of two hands, and others
-/// that are being lifted; each costs a coordinate in every step.
+/// Largest number of fingers that a virtual surface computes at once: ten of two hands, and others that are
+/// being lifted. Each costs a coordinate in every step.
 const FINGERS: usize = 24;
 
-/// Fingers whose sensation is computed: the ten of two hands. Each costs one watched place.
+/// Number of fingers whose sensation is computed: the ten of two hands. Each costs one place at which the
+/// motion is recorded.
 const FELT: usize = 10;
 
-/// How often a lost sound server is looked for again. At four seconds each that is more than an hour.
+/// Number of attempts to open a lost sound server again. At four seconds each that is more than an hour.
 const TRIES: u32 = 1000;
 
-/// Blocks by which the drive is ahead on a device that does not call by itself: the fewest that such a device takes.
+/// Number of blocks by which the drive is ahead on a device without a process callback: the fewest that
+/// such a device takes.
 const LEAD: usize = 2;
 
-/// Share of the sensors' signals that the model may leave unexplained: the sheet still rings a little as it did under a
-/// finger.
+/// Share of the sensors' signals that the model may leave unexplained: after a finger has left, the sheet
+/// still rings a little as it did under the finger.
 const MODEL: f64 = 0.02;
 
-/// Period of the drift that may be asked for, in s, and how far apart its knots are.
+/// Period of the drift of tension that can be requested, and the spacing of the points at which it is
+/// tabulated, both in s.
 const MINUTE: f64 = 60.0;
 const KNOT: f64 = 0.1;
 
-/// Longest drift that is laid out beforehand, in s. After it the tension stays.
+/// Duration of the tabulated drift, in s. After it the tension stays constant.
 const LONGEST: f64 = 3600.0;
 
-/// A device, and what goes with it.
+/// An open device, with the simulation of what fingers feel and its latency.
 pub(super) struct Opened {
     /// The device that plays.
     pub device: Box<dyn Device>,
-    /// Computes the sensations of fingers, on a virtual surface.
+    /// Computes what fingers feel on a virtual surface; `None` for a real device.
     pub feeler: Option<Feeler>,
     /// Latency from drive to input, in samples.
     pub latency: usize,
 }
 
-/// Opens what was asked for.
+/// Opens the device that a request names.
 pub(super) fn open(ask: &Ask, surface: &Surface) -> Result<Opened, TaskError> {
     match ask.device.device {
         DeviceKind::Virtual => virtual_surface(ask, surface),
@@ -71,18 +74,20 @@ fn virtual_surface(ask: &Ask, surface: &Surface) -> Result<Opened, TaskError> {
     Ok(Opened { device: Box::new(device), feeler: Some(feeler), latency: 0 })
 }
 
-/// Tension over nominal against time (s), varying as a sine by a share, with a period of a minute.
+/// Table of time (s) and of the tension relative to its nominal value, which varies as a sine with
+/// amplitude `share` and a period of a minute.
 fn drift(share: f64) -> Vec<(f64, f64)> {
     let knots = (LONGEST / KNOT) as usize;
     let at = |i: usize| i as f64 * KNOT;
     (0..=knots).map(|i| (at(i), 1.0 + share * (TAU * at(i) / MINUTE).sin())).collect()
 }
 
-/// Function that opens the device of a surface, or says in words why it cannot be opened.
+/// Function that opens the device of a surface, or returns the reason why it cannot be opened.
 pub type Opener = Arc<dyn Fn(&Surface) -> Result<Box<dyn Device>, String> + Send + Sync>;
 
-/// Returns a function that opens the device that the options name. JACK and cards have an input for each actuator's
-/// sensor if `hears`, else none. A virtual surface runs in real time. Files (tape) are refused.
+/// Returns a function that opens the device that the options name. If `hears`, JACK and cards have an input
+/// for each actuator's sensor, else no inputs. A virtual surface runs in real time. Files (tape) are
+/// refused.
 pub fn opener(options: &DeviceAsk, hears: bool) -> Opener {
     let options = options.clone();
     Arc::new(move |surface| {
@@ -137,7 +142,8 @@ fn card(_: &DeviceAsk, _: &Surface, _: Vec<String>) -> Result<Opened, TaskError>
     Err(TaskError::Input(format!("{text}{}", crate::device::HOW_TO_GET_CARDS)))
 }
 
-/// The sensors that are listened to.
+/// Names of the sensors whose signals are used: those of all actuators if tension is to be followed, else
+/// none.
 fn heard(ask: &Ask, surface: &Surface) -> Vec<String> {
     if ask.follow_tension { device::names(surface) } else { Vec::new() }
 }

@@ -27,7 +27,7 @@ pub fn check(ask: &Ask) -> Result<(), TaskError> {
     Ok(record.map_or(Ok(()), check_new_file)?)
 }
 
-/// Where a file is or would be, by whatever way it is named.
+/// Canonical path of a file, whether or not it exists.
 fn place(path: &Path) -> PathBuf {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

@@ -10,12 +10,12 @@ use unripple_devices::Feeling;
 use unripple_live::{Engine, Level, Percentiles, Pulse, Stage, Window};
 use unripple_player::Count;
 
-/// Report of a session of play, SI units.
+/// Report of a session of `play`, in SI units.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Report {
     surface: String,
     window_s: f64,
-    /// Window that `design` recommends where no one waits for the focus.
+    /// Window that `design` recommends where the delay from touch to focus does not matter, in s.
     window_unhurried_s: f64,
     #[serde(skip)]
     window: String,
@@ -58,13 +58,13 @@ pub struct Report {
     /// Notes on doubts about the library of responses that was used.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<Note>,
-    /// What each finger felt at the last look.
+    /// What each finger felt when this was last sampled.
     #[serde(skip)]
     pub(super) feelings: Vec<Feeling>,
-    /// Whether what fingers feel is known.
+    /// Whether what fingers feel is known, as on a virtual surface.
     #[serde(skip)]
     tells_feelings: bool,
-    /// Whether the library that was played on has no scale, so that absolute levels are unknown.
+    /// Whether the library of responses has no scale, so that absolute levels are unknown.
     #[serde(skip)]
     pub without_scale: bool,
 }
@@ -72,17 +72,18 @@ pub struct Report {
 /// What a sound server reports of itself and of the session.
 #[derive(Clone, Debug, Serialize)]
 struct ServerSays {
-    /// A cycle, as it was at the end.
+    /// Duration of a process cycle at the end of the session.
     period_s: f64,
-    /// From our ports to the air, as the server knows it; not in the times above.
+    /// Latency from our ports to the output, as the server reports it; not included in the other times of
+    /// the report.
     playback_latency_s: f64,
-    /// Cycles that it says came late, whoever's fault that was.
+    /// Number of late cycles that the server counted, whichever client caused them.
     late_cycles: u64,
-    /// Cycles that were over before our own part of them was done.
+    /// Number of cycles that ended before this program had done its part.
     own_late_cycles: u64,
-    /// Time that it left out between cycles.
+    /// Time that the server skipped between cycles.
     skipped_s: f64,
-    /// Real-time priority of its thread that calls us.
+    /// Real-time priority of the server's thread that calls this program.
     #[serde(skip_serializing_if = "Option::is_none")]
     real_time_priority: Option<u8>,
 }
@@ -110,7 +111,7 @@ impl ServerSays {
     }
 }
 
-/// The 50th, 90th, 99th, 99.9th percentile and the worst; `null` where nothing was.
+/// The 50th, 90th, 99th and 99.9th percentile and the maximum of a time; `null` if nothing was measured.
 #[derive(Clone, Debug, Default, Serialize)]
 struct Four {
     p50: Option<f64>,
@@ -142,7 +143,7 @@ impl Four {
     }
 }
 
-/// Sensations of fingers, over all looks in which one felt anything.
+/// Statistics of what fingers felt, over all samples in which one felt anything.
 #[derive(Clone, Debug, Default, Serialize)]
 struct Felt {
     looks: usize,
@@ -155,7 +156,7 @@ struct Felt {
     contrasts: Vec<f64>,
 }
 
-/// Tension as it was followed.
+/// Estimate of the tension at the end.
 #[derive(Clone, Debug, Serialize)]
 struct Tension {
     ratio: f64,
@@ -253,7 +254,8 @@ fn told(feeling: &Feeling, without_scale: bool) -> String {
 }
 
 impl Felt {
-    /// The report as text; `told` where a virtual surface says what is felt, `without_scale` where its level means nothing.
+    /// The report as text; `told` if a virtual surface computed what is felt, `without_scale` if its level
+    /// is unknown.
     fn text(&self, told: bool, without_scale: bool) -> String {
         if !told {
             return "felt: unknown, since only a virtual surface can simulate it\n".into();

@@ -1,4 +1,4 @@
-//! Plays a surface live, in answer to touches.
+//! Plays a surface live, in response to touches.
 
 use super::open::{self, Opened};
 use super::report::Report;
@@ -20,13 +20,13 @@ use unripple_live::{
 use unripple_store::{load_effects, write_kept_wav};
 use unripple_touch::Sources;
 
-/// Most of a drive that is kept, in s. 92 MB in float32 for eight channels at 48 kHz.
+/// Longest part of a drive that is stored, in s: 92 MB in float32 for eight channels at 48 kHz.
 const KEPT: f64 = 60.0;
 
-/// Time over which tension is observed, in s: a ping, and until it is over.
+/// Time over which the tension is estimated, in s: a ping, and its decay.
 const FOLLOWED: f64 = 0.4;
 
-/// How often fingers are reported, in s of played time. As fast as figures can be read.
+/// Interval at which what fingers feel is reported, in s of played time: as fast as figures can be read.
 pub(super) const TELL: f64 = 0.2;
 
 /// Results of the computations that precede playing; they take seconds for a surface whose modes need a mesh.
@@ -71,8 +71,8 @@ pub(super) fn prepare(ask: &Ask, progress: &mut dyn Progress) -> Result<Prepared
     Ok(Prepared { surface, responses, set, maker, settings, window, level, without_scale, notes })
 }
 
-/// Plays a surface in answer to touches until the session is over or cancelled. Cancelling is no error once it plays: the report covers what
-/// was played until then.
+/// Plays a surface in response to touches until the session is over or cancelled. Cancelling is no error
+/// once playing has begun: the report covers what was played until then.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of options that make no sense; those of surfaces, effects, devices, touches and files; [`TaskError::Cancelled`]
@@ -97,8 +97,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(session.report.finish(&mut engine))
 }
 
-/// Joins what was prepared to the sources of touches and to the device, which is opened here, and says with which window and level it plays.
-/// The report is still empty.
+/// Connects the prepared data to the sources of touches and to the device, which is opened here, and
+/// reports window and level to `progress`. The returned report is still empty.
 pub(super) fn join(
     ask: &Ask,
     prepared: Prepared,
@@ -126,7 +126,7 @@ pub(super) fn join(
     Ok((engine, report))
 }
 
-/// The worker that computes drives; from a library, also at places between its points.
+/// The worker that computes drives; with a library of responses, also at places between its points.
 fn maker(
     surface: &Surface,
     responses: &Arc<Responses>,
@@ -153,7 +153,8 @@ fn seconds_to_play(ask: &Ask, lasts: Option<f64>) -> Result<Option<f64>, TaskErr
     Ok(asked.or(lasts))
 }
 
-/// Follower of a surface's tension, and the ping that it plays. Needs modal responses; `latency` is the samples from drive to input.
+/// Prepares to follow the tension of a surface: returns the follower, and the ping (test signal) that it
+/// plays. Needs modal responses; `latency` is the number of samples from drive to input.
 ///
 /// # Errors
 /// [`TaskError::Input`] for sampled responses; those of the tracker and the ping.
@@ -184,7 +185,7 @@ struct Session<'a> {
 }
 
 impl Session<'_> {
-    /// Plays as fast as it goes, all on this thread.
+    /// Plays in virtual time, as fast as possible, on the calling thread.
     fn step(&mut self, engine: &mut Engine, seconds: Option<f64>) -> Result<(), TaskError> {
         let mut kept = Vec::new();
         while !self.progress.cancelled() && seconds.is_none_or(|end| engine.stage().time() < end) {
@@ -209,7 +210,7 @@ impl Session<'_> {
         }
     }
 
-    /// Plays by the device's clock, on a thread of its own.
+    /// Plays by the device's clock, on a separate thread.
     fn run(&mut self, engine: &mut Engine, seconds: Option<f64>) -> Result<(), TaskError> {
         engine.run(seconds, |stage, pulse| {
             self.tell(stage, Some(pulse));
@@ -227,7 +228,7 @@ impl Session<'_> {
     }
 }
 
-/// What was driven, from blocks.
+/// Assembles the drive from its blocks.
 fn drive(kept: &[f32], engine: &Engine) -> Result<Drive, TaskError> {
     let layout = engine.heart().device().layout();
     let outputs = layout.outputs.len();

@@ -1,4 +1,4 @@
-//! Play that its caller steps block by block, in virtual time.
+//! A session of `play` that its caller advances block by block, in virtual time.
 
 use super::report::Report;
 use super::run::{TELL, join, prepare};
@@ -9,9 +9,9 @@ use unripple_devices::Feeling;
 use unripple_live::Engine;
 use unripple_touch::{Source, Sources};
 
-/// A surface in play, stepped block by block by a caller that also supplies the touches: what [`run`](super::run()) does
-/// with a virtual surface, for programs that act between the blocks. Time passes only in [`Stepped::step`]: the same
-/// touches at the same times give the same drive.
+/// A session of [`run`](super::run()) on a virtual surface that its caller advances block by block and
+/// supplies with touches, for programs that act between the blocks. Time passes only in [`Stepped::step`]:
+/// the same touches at the same times give the same drive.
 ///
 /// ```
 /// use unripple::core::{Phase, Point, Touch};
@@ -35,13 +35,14 @@ pub struct Stepped {
     engine: Engine,
     report: Report,
     window: f64,
-    /// Time at which fingers were last looked at, in s.
+    /// Time at which what fingers feel was last sampled, in s.
     told: f64,
 }
 
 impl Stepped {
-    /// Opens the surface, effects and virtual surface of a request, with one source of touches, which is polled at the beginning
-    /// of each block. The fields `touch`, `seconds` and `keep_drive` of the request are ignored.
+    /// Opens a session: the surface and effects of a request, with a virtual surface as device and `source`
+    /// as the source of touches, which is polled at the beginning of each block. The fields `touch`,
+    /// `seconds` and `keep_drive` of the request are ignored.
     ///
     /// # Errors
     /// Those of [`run`](super::run()) before it plays; [`TaskError::Input`] for anything that runs in real time.
@@ -73,7 +74,8 @@ impl Stepped {
         Ok(())
     }
 
-    /// Channels, sample rate and block length: an output for each actuator; an input for the sensor of each, and the probe.
+    /// Channels, sample rate and block length of the device: an output for each actuator, and an input for
+    /// each actuator's sensor and for the probe.
     pub fn layout(&self) -> &Layout {
         self.engine.heart().device().layout()
     }
@@ -93,17 +95,19 @@ impl Stepped {
         self.engine.stage().time()
     }
 
-    /// Time from a touch to its focus, in s.
+    /// Window T, which is the delay from a touch to its focus, in s.
     pub fn window(&self) -> f64 {
         self.window
     }
 
-    /// What each finger felt, at the last of the looks that are made every 0.2 s of played time.
+    /// What each finger felt (level and contrast) when last sampled; samples are taken every 0.2 s of
+    /// played time.
     pub fn feelings(&self) -> &[Feeling] {
         &self.report.feelings
     }
 
-    /// Time of that look, in s: what was felt was felt in the 0.2 s before it, or since the look before it; 0 before the first.
+    /// Time at which [`Stepped::feelings`] was last sampled, in s; 0 before the first sample. A sample
+    /// covers the 0.2 s before it, or the time since the sample before it.
     pub fn felt_at(&self) -> f64 {
         self.told
     }

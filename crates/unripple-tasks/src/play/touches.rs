@@ -14,25 +14,26 @@ use unripple_touch::{
     SyntheticOptions, TouchError, WebSocketOptions, WebSocketPort,
 };
 
-/// Seconds that a recorded session is followed by, so that what it set off is over.
+/// Time for which playing continues after a recorded session, in s, so that what it triggered is over.
 const AFTER: f64 = 0.5;
 
-/// Number of synthetic fingers where there is no other source of touches. Two show that foci do not disturb each other.
+/// Default number of synthetic fingers if there is no other source of touches. Two show that foci do not
+/// disturb each other.
 const ALONE: usize = 2;
 
 /// The sources of touches, and the recording of them.
 #[derive(Default)]
 pub(super) struct Touches {
     recording: Option<Arc<Mutex<Tape>>>,
-    /// The recording's file is removed again unless the session begins.
+    /// Guard that removes the recording's file again unless the session begins.
     unused: Option<Underway>,
     /// Duration of a recorded session, in s.
     pub lasts: Option<f64>,
-    /// Description of each source, a line each.
+    /// Descriptions of all sources and warnings, a line each.
     pub told: Vec<String>,
 }
 
-/// A recording under way, or why it ended.
+/// A recording in progress, or why it failed.
 struct Tape {
     recorder: Option<Recorder<BufWriter<File>>>,
     failed: Option<TouchError>,
@@ -52,7 +53,7 @@ impl Tape {
 }
 
 impl Touches {
-    /// Opens all sources that were asked for.
+    /// Opens all sources of touches that a request names.
     pub fn open(options: &TouchAsk, surface: &Surface) -> Result<(Self, Sources), TaskError> {
         let mut touches = Self::default();
         let mut sources = Sources::new(&surface.outline);
@@ -92,7 +93,7 @@ impl Touches {
         Ok((touches, sources))
     }
 
-    /// The listener that records all touches and requests, if they are recorded.
+    /// The callback that records all touches and requests, if the request names a file for the recording.
     pub fn listener(&self) -> Option<Listener> {
         let tape = self.recording.clone()?;
         Some(Box::new(move |now, heard| {
@@ -102,14 +103,14 @@ impl Touches {
         }))
     }
 
-    /// Keeps the recording from now on, however the session ends; to be called when it begins.
+    /// Keeps the recording's file even if the session fails later; to be called when the session begins.
     pub fn begin(&mut self) {
         if let Some(unused) = self.unused.take() {
             unused.keep();
         }
     }
 
-    /// Ends the recording.
+    /// Ends the recording of touches, and returns an error if it failed.
     pub fn finish(&mut self) -> Result<(), TaskError> {
         let Some(tape) = self.recording.take() else { return Ok(()) };
         let finished = tape.lock().map_err(TaskError::work)?.finish();
@@ -117,7 +118,7 @@ impl Touches {
     }
 }
 
-/// Warning that other machines can touch the surface, where a port is open to them.
+/// Warning that other machines can send touches, if a port is open to them.
 fn exposed(options: &TouchAsk) -> Option<String> {
     // IPv6 may write an address of IPv4, the loopback one too.
     let open = !options.listen.to_canonical().is_loopback();

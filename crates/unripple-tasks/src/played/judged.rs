@@ -8,11 +8,12 @@ use unripple::core::{Drive, Responses, Surface};
 use unripple::field::{Aim, Field, SilenceFigures};
 use unripple::focus::Options;
 
-/// Cells of the grid per shortest wavelength, where the whole of a long drive is measured. Fewer than the eight of a
+/// Cells of the grid per shortest wavelength for the evaluation of a long drive. Fewer than the eight of a
 /// single focus: the time of a long drive counts, and rms figures change little.
 const CELLS: f64 = 3.0;
 
-/// If a drive is nearer to its limit than this share, the limit decided its level: rounding to float32 is smaller.
+/// Relative distance from the drive limit within which the limit counts as having decided the drive's
+/// level: rounding to float32 is smaller.
 const HELD: f64 = 1e-6;
 
 /// A drive of waveforms or of a stroke, and metrics of how accurately the targets follow.
@@ -21,33 +22,36 @@ pub(crate) struct Played {
     pub drive: Drive,
     /// Places and instants at which the drive is evaluated.
     pub aims: Vec<Aim>,
-    /// How long the traces go on after the drive, in s: half a window, in which the last waves pass.
+    /// Time by which the traces continue after the drive, in s: half a window, in which the last waves
+    /// pass.
     pub after: f64,
     /// Name of the method that made the drive.
     pub method: &'static str,
-    /// How the targets followed their waveforms.
+    /// Metrics of how accurately each target follows its waveform; empty for a stroke.
     pub waveforms: Vec<Followed>,
-    /// What is left at the silent places.
+    /// Metrics of the remaining motion at the places that are to stay still.
     pub silent: Vec<SilenceFigures>,
-    /// How a stroke kept its level, if it is one.
+    /// Metrics of a stroke, such as how evenly it keeps its level; `None` for waveforms.
     pub stroke: Option<Stroked>,
 }
 
 /// Options that the tasks `waveform` and `stroke` have in common.
 pub(crate) struct Common<'a> {
-    /// Another surface that the drive is evaluated on.
+    /// Surface that the drive is evaluated on, if it is not the one that the drive is computed for.
     pub on: Option<&'a SurfaceAsk>,
     /// Highest frequency of the modes that the drive is evaluated on, in Hz.
     pub judge_hz: Option<f64>,
-    /// Name of the field that needs a surface, for the error if a library is given.
+    /// Fields that need a surface, as named in the error if the source is a library.
     pub needs: &'static str,
-    /// Multiples of the band up to which modes are planned with, and evaluated on by default, each followed by those that do where the
-    /// first is out of reach, above the band itself; at most 0.45 of the sample rate.
+    /// Multiples of the top of the band up to which modes are used: to plan the drive, and by default to
+    /// evaluate it. Each list is tried in its order until the modes can be computed, and the band itself
+    /// comes last; no multiple exceeds 0.45 of the sample rate.
     pub bands: [&'a [f64]; 2],
 }
 
-/// Computes a drive by `play`, which gets what `plan` made of the surface, the surface, and the responses for planning and
-/// for evaluation, and evaluates the drive. `plan` comes before all responses, so that it refuses what makes no sense at once.
+/// Computes a drive with `play` and evaluates it. `plan` is called first, before any response is computed,
+/// and refuses what makes no sense; `play` receives its result, the surface, and the responses for planning
+/// and for evaluation.
 pub(crate) fn judge<T>(
     common: Common<'_>,
     source: Source,

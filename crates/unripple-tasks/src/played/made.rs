@@ -10,7 +10,7 @@ pub struct Made {
     pub report: Report,
     /// The drive as it is emitted: float32 samples in the actuators' unit.
     pub drive: Drive,
-    /// The field of the drive, measured, with traces at the targets and maps.
+    /// Evaluation of the drive's field: metrics, traces at the targets, and maps.
     pub judged: Judged,
     /// The surface that the drive was evaluated on.
     pub surface: Surface,

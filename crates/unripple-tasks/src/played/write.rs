@@ -1,4 +1,4 @@
-//! The folder of what is played: drive, report and figures.
+//! The output folder of a drive for waveforms or a stroke: drive, report and figures.
 
 use super::Made;
 use crate::figures::{self, Columns, Scene, When};
@@ -8,7 +8,8 @@ use unripple::core::{ActuatorKind, Point};
 use unripple_plot::Figure;
 use unripple_store::{OutputDir, write_wav};
 
-/// Writes all of it where a folder is given, figures of some width where they are wanted, names the files in the report, and returns that.
+/// Writes drive, report and (with `drawn`, their width in columns) figures to the folder if there is one,
+/// lists the files in the report, and returns the report.
 pub(crate) fn keep(
     mut made: Made,
     out: Option<(OutputDir, Record)>,
@@ -28,7 +29,7 @@ pub(crate) fn keep(
     Ok(made.report)
 }
 
-/// The figures in the folder of waveforms or a stroke, as SVG text by their names.
+/// Draws the figures of a drive for waveforms or a stroke, and returns their names and SVG texts.
 ///
 /// # Errors
 /// [`TaskError::Work`] of a figure that cannot be drawn.

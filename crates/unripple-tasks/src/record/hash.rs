@@ -11,7 +11,8 @@ pub fn of_bytes(bytes: &[u8]) -> String {
     digits(Sha256::new_with_prefix(bytes))
 }
 
-/// SHA-256 of a file's bytes; of a folder that of the names, lengths and bytes of all its files, in the order of their names.
+/// SHA-256, as hexadecimal digits, of a file's bytes; for a folder, of the names, lengths and bytes of all
+/// its files, in the order of their names.
 ///
 /// # Errors
 /// [`TaskError::Input`] of what cannot be read.

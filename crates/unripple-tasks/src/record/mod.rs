@@ -1,4 +1,4 @@
-//! Records of runs: what a report says of how it was made, from which it can be made again.
+//! Records of runs: how a report was made, in enough detail to make it again.
 
 mod hash;
 
@@ -14,20 +14,21 @@ use unripple_store::{Library, OutputDir, date, to_toml};
 
 pub use hash::{of_bytes, of_path};
 
-/// What is done with the path of a file that is read.
+/// Callback for the path of a file that a task reads; it may change the path.
 pub type Visit<'a> = dyn FnMut(&mut PathBuf) -> Result<(), TaskError> + 'a;
 
-/// A request for a task, as a record keeps it: which files it reads, and where its results go.
+/// A request for a task that can be recorded: it states which files it reads, and where its results go.
 pub trait Request: Clone + Serialize + DeserializeOwned {
-    /// The command that does it.
+    /// Name of the command that performs the request.
     const COMMAND: &'static str;
 
-    /// Surfaces that it names.
+    /// Mutable references to the surfaces that the request names.
     fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
         Vec::new()
     }
 
-    /// Shows `visit` the path of each file and folder that it reads beside those of its surfaces, to be changed in place.
+    /// Calls `visit` with the path of each file and folder that the request reads besides those of its
+    /// surfaces; `visit` may change the path in place.
     ///
     /// # Errors
     /// Those of `visit`.
@@ -35,7 +36,7 @@ pub trait Request: Clone + Serialize + DeserializeOwned {
         Ok(())
     }
 
-    /// Files and folders that it reads, which no output may take the place of.
+    /// Files and folders that the request reads, which no output may replace.
     fn reads(&self) -> Vec<PathBuf> {
         let mut ask = self.clone();
         let mut paths: Vec<_> =
@@ -49,7 +50,8 @@ pub trait Request: Clone + Serialize + DeserializeOwned {
         paths
     }
 
-    /// Sends results to another place, or nowhere where that is possible; whatever else would be written is not.
+    /// Sets where the results are written, or (`None`) that none are, where the task allows that; other
+    /// outputs are switched off.
     fn send_to(&mut self, output: Option<PathBuf>);
 }
 
@@ -60,23 +62,24 @@ pub struct SurfaceRead {
     pub asked: SurfaceAsk,
     /// Name of the surface, from its file.
     pub name: String,
-    /// SHA-256, in hexadecimal digits, of its text (TOML), which stands in the recorded options of the task.
+    /// SHA-256, in hexadecimal digits, of the surface's text (TOML), which the recorded request contains.
     pub sha256: String,
 }
 
-/// A file that was read, or a folder.
+/// A file or folder that was read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRead {
     /// Absolute path of the file or folder.
     pub path: PathBuf,
-    /// SHA-256 of its bytes, or of the names and bytes of all files in the folder, in hexadecimal digits.
+    /// SHA-256 of the file's bytes, or of the names and bytes of all files in the folder, in hexadecimal
+    /// digits.
     pub sha256: String,
 }
 
 /// How a report was made: the program, the request with the text of its surfaces, and the files that were read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
-    /// Name of the JSON schema that the report holds to; empty where an earlier program did not say it.
+    /// Name of the JSON schema that the report conforms to; empty in records of earlier versions.
     #[serde(default)]
     pub schema: String,
     /// Name of the program.
@@ -85,15 +88,16 @@ pub struct Record {
     pub version: String,
     /// The commit that the program was built from, where that is known.
     pub commit: Option<String>,
-    /// When it began: date and time of day, UTC, as ISO 8601 writes them.
+    /// When the run began: date and time of day, UTC, as ISO 8601 writes them.
     pub date: String,
     /// Command that was run.
     pub command: String,
-    /// What was asked for, in SI units; surface files stand here as text, other files by their absolute paths.
+    /// The request as JSON, in SI units; surfaces are included as text, other files by their absolute
+    /// paths.
     pub ask: Value,
     /// Surface files that were read.
     pub surfaces: Vec<SurfaceRead>,
-    /// Other files that were read, and libraries.
+    /// Other files that were read, and libraries of responses.
     pub files: Vec<FileRead>,
 }
 
@@ -105,20 +109,23 @@ struct Recorded<'a, R> {
     run: &'a Record,
 }
 
-/// The key of a library's log under which the record of the run that began it stands.
+/// Key of the log entry of a library for the record of the run that began it.
 const LOGGED: &str = "run";
 
-/// Told by the program that is built on these tasks: it is built anew with each commit, they are not.
+/// Commit of the program, which the program itself sets: it is built anew with each commit, this crate is
+/// not.
 static COMMIT: OnceLock<&str> = OnceLock::new();
 
-/// Says from which commit the program was built; an empty text leaves it unknown. The first one who says so is believed.
+/// Sets the commit that the program was built from, for records; an empty text leaves it unknown. Only the
+/// first call has an effect.
 pub fn built_from(commit: &'static str) {
     // A second call changes nothing, as promised.
     let _ = COMMIT.set(commit);
 }
 
 impl Record {
-    /// The record of a request that is about to be performed, with surfaces and files as they are now.
+    /// Makes the record of a request that is about to be performed, with surfaces and files as they are
+    /// now.
     ///
     /// ```
     /// use unripple_tasks::{Record, focus};
@@ -188,7 +195,8 @@ impl Record {
         Ok(out.write("report.json", self.json(report)?.as_bytes())?)
     }
 
-    /// Keeps this record in the log of a library that is about to be filled; one that is continued keeps that of its beginning.
+    /// Stores this record in the log of a library that is about to be filled; a library that is continued
+    /// keeps the record of the run that began it.
     ///
     /// # Errors
     /// Those of [`Library::log`].
@@ -199,7 +207,7 @@ impl Record {
         Ok(())
     }
 
-    /// The request, provided that the files that it reads have not changed since.
+    /// Returns the recorded request, after a check that the files that it reads have not changed.
     ///
     /// # Errors
     /// [`TaskError::Input`] that names what is gone or has changed, or the field that this version does not know.
@@ -221,7 +229,7 @@ impl Record {
     }
 }
 
-/// The request that a JSON value holds; fields that it leaves out have their defaults.
+/// Converts a JSON value to a request; fields that are absent get their defaults.
 ///
 /// # Errors
 /// [`TaskError::Input`] of a field that the command does not know, or of a value that the field cannot have.

@@ -5,13 +5,14 @@ use crate::record::{Request, Visit};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Which run is to be repeated, and where its results go.
+/// Which run to repeat, and where to write its results.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
-    /// A report.json, or what `--json` printed.
+    /// File of the report whose run is repeated: a report.json, or the output of `--json`.
     pub report: PathBuf,
-    /// Where results go; without it figures in numbers alone are made, where the command can do so.
+    /// Where results are written; by default no file is written and only the report is returned, if the
+    /// command allows that.
     pub output: Option<PathBuf>,
 }
 

@@ -1,4 +1,4 @@
-//! `rerun`: a report's run once more, from what the report says of it.
+//! `rerun`: repeats the run that made a report, from the record in the report.
 
 mod ask;
 mod report;

@@ -1,26 +1,26 @@
-//! What came of a run that was repeated: the report of its command.
+//! Report of a repeated run: the report of its command.
 
 use crate::TaskError;
 use crate::commands::Done;
 use serde::Serialize;
 use serde_json::value::RawValue;
 
-/// The report of the command that was done again, whichever that is.
+/// Report of a repeated run: the report of its command, whichever that is.
 #[derive(Clone, Debug, Serialize)]
 #[serde(transparent)]
 pub struct Report {
     /// The report with the record of the new run, as JSON.
     pub json: Box<RawValue>,
-    /// The same for people.
+    /// The report as text for people.
     #[serde(skip)]
     pub text: String,
-    /// Why it counts as failed although it has a report.
+    /// Reason why the run counts as failed although it has a report; `None` if it succeeded.
     #[serde(skip)]
     pub failure: Option<String>,
 }
 
 impl Report {
-    /// What came of a command, with the record of its new run.
+    /// Makes the report from the result of the repeated command.
     ///
     /// # Errors
     /// [`TaskError::Work`] of text that is no JSON.

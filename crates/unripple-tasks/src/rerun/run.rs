@@ -1,4 +1,4 @@
-//! Reading a report's record, and doing what it records.
+//! Reads the record in a report, and repeats the run that it describes.
 
 use super::{Ask, Report};
 use crate::commands::find;
@@ -6,14 +6,14 @@ use crate::record::Record;
 use crate::{Progress, TaskError, go_on};
 use serde::Deserialize;
 
-/// A report, of which only the record is read.
+/// The part of a report that is read: the record of its run.
 #[derive(Deserialize)]
 struct Recorded {
     run: Record,
 }
 
-/// Does the run of a report once more: with the options, seeds and surfaces that it had, on the files that it read, which must not have
-/// changed.
+/// Repeats the run that made a report, with the recorded options, seeds and surfaces, on the files that the
+/// run read, which must not have changed.
 ///
 /// ```
 /// use unripple_tasks::{Record, Silent, modes, rerun};
@@ -35,7 +35,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     repeat(&record(ask)?, ask, progress)
 }
 
-/// Does what a record holds once more; `ask` says which report it is from, and where results go.
+/// Repeats a recorded run; `ask` names the report that the record is from and where results are written.
 ///
 /// # Errors
 /// [`TaskError::Input`] of a command that is no task; those of [`Record::ask`] and of the command.
@@ -50,7 +50,7 @@ pub fn repeat(record: &Record, ask: &Ask, progress: &mut dyn Progress) -> Result
     }
 }
 
-/// The record that a report holds.
+/// Reads the record of the run from a report's file.
 ///
 /// # Errors
 /// [`TaskError::Input`] of a file that cannot be read or holds none.

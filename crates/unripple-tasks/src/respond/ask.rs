@@ -5,18 +5,19 @@ use crate::record::Request;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Which responses are wanted, and where they are to be kept.
+/// Which responses to compute, and where to store them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
-    /// Spacing of the points, in m. They lie at multiples of it along both axes; those within a quarter of it from the rim are
-    /// left out.
+    /// Spacing of the square grid of points, in m. Points lie at multiples of the spacing along both axes;
+    /// those within a quarter of it from the rim are left out.
     pub pitch_m: f64,
     /// Length of the responses in s, at most 60; by default twice the window that `design` recommends.
     pub length_s: Option<f64>,
-    /// Folder of the library. An unfinished library of the same plan is continued.
+    /// Folder of the library to write. An unfinished library with the same points and settings is
+    /// continued.
     pub output: PathBuf,
 }
 

@@ -1,4 +1,4 @@
-//! `respond`: responses from the model, as a library.
+//! `respond`: computes responses from the model, and stores them in a library.
 
 mod ask;
 mod report;

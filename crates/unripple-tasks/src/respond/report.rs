@@ -11,9 +11,9 @@ pub struct Report {
     pub version: &'static str,
     /// Name of the task.
     pub command: &'static str,
-    /// The surface's own name.
+    /// Name of the surface in its file.
     pub surface: String,
-    /// The library's folder.
+    /// Path of the library's folder.
     pub library: String,
     /// Number of points in the library.
     pub points: usize,
@@ -23,7 +23,7 @@ pub struct Report {
     pub pitch_m: f64,
     /// Number of actuators.
     pub actuators: usize,
-    /// Samples of each response.
+    /// Number of samples in each response.
     pub samples: usize,
     /// Sample rate of the responses, in Hz.
     pub sample_rate_hz: f64,
@@ -51,7 +51,7 @@ impl crate::Report for Report {
     }
 }
 
-/// A length in mm without the digits that came of metres.
+/// A length in mm without the rounding errors of the conversion from metres.
 fn rounded(mm: f64) -> f64 {
     (mm * 1e9).round() / 1e9
 }

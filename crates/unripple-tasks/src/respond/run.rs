@@ -1,4 +1,4 @@
-//! The responses of a surface at the points of a grid, into a library.
+//! Computes the responses of a surface at the points of a grid, and stores them in a library.
 
 use super::{Ask, Report};
 use crate::numbers::above_zero;
@@ -10,7 +10,8 @@ use unripple::physics::sample;
 use unripple_calibrate::measure::MOST_KEPT;
 use unripple_store::{Library, LibraryPlan};
 
-/// Largest number of samples of a response times modes: tables of them take up to 6 GiB. With twice this value, it takes twice the memory.
+/// Largest product of the number of samples of a response and the number of modes: tables of that size take
+/// up to 6 GiB. With twice this value, it takes twice the memory.
 pub const MOST_VALUES: usize = 1 << 29;
 
 /// Computes the responses of a surface at the points of a grid, and stores them in a library. A cancelled run can be continued.

@@ -12,13 +12,13 @@ use std::path::PathBuf;
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
-    /// Path of the focus; of a filled shape, its outline.
+    /// Path of the focus; for a filled shape, the path is its outline.
     pub path: ShapeAsk,
     /// How fast the focus moves, in m/s.
     pub speed_m_s: f64,
     /// Velocity of the sheet at each pulse along the path, in m/s.
     pub level_m_s: f64,
-    /// Window T of each pulse, in s.
+    /// Window T: time from the drive's first sample to the earliest possible focal instant, in s.
     pub window_s: Option<f64>,
     /// Evaluate the drive on this surface instead of the one that it was computed for.
     pub on: Option<SurfaceAsk>,
@@ -30,7 +30,8 @@ pub struct Ask {
     pub output: Option<PathBuf>,
     /// Write no figures.
     pub no_figures: bool,
-    /// Columns of a page that figures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    /// Width of all figures in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default each figure
+    /// has its own width.
     pub columns: Option<usize>,
 }
 

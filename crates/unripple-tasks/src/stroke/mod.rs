@@ -1,4 +1,4 @@
-//! `stroke`: a focus that moves along a path.
+//! `stroke`: computes a drive whose focus moves along a path.
 
 mod ask;
 mod report;

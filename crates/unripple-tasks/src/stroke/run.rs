@@ -12,17 +12,19 @@ use unripple::core::{Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
 use unripple::focus::{FocusError, Pattern, PulseOptions, Stroke, Target, strike};
 
-/// Strokes are planned on modes up to the first multiple of the band, and evaluated by default on those up to the second: pulses fill the
-/// whole band.
+/// Multiples of the top of the band up to which modes are used: 1 to plan a stroke, whose pulses fill the
+/// whole band, and by default 2 to evaluate it.
 const BANDS: [&[f64]; 2] = [&[1.0], &[2.0]];
 
-/// Places of a stroke measured at once, which bounds memory.
+/// Number of places along a stroke that are evaluated at once, which bounds memory.
 const AT_ONCE: usize = 256;
 
-/// Places measured for each pulse of a stroke. One at each focus and one midway, where a gap would show.
+/// Number of places evaluated for each pulse of a stroke: one at each focus and one midway, where a gap
+/// would show.
 const BETWEEN: usize = 2;
 
-/// Computes a drive whose focus moves along a path at one level, evaluates it, and writes it to a folder if one is given.
+/// Computes a drive whose focus moves along a path at constant level, evaluates it, and writes it to a
+/// folder if the request names one.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; those of the method; [`TaskError::Cancelled`].
@@ -30,8 +32,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     kept(ask, |progress| source::open(&ask.surface, progress), progress)
 }
 
-/// Does what [`run()`] does, on a surface or responses that are given instead of those that the request names; the record in the folder
-/// holds the request.
+/// Does what [`run()`] does, but on the surface or responses in `source` instead of those that the request
+/// names; the record in the output folder contains the request.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of reading them.
@@ -39,7 +41,8 @@ pub fn run_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<
     kept(ask, |_| Ok(source), progress)
 }
 
-/// Computes and evaluates a drive on what `open` gives, and keeps it in a folder if one is given.
+/// Computes and evaluates a drive on the surface or responses that `open` returns, and writes it to a
+/// folder if the request names one.
 fn kept(
     ask: &Ask,
     open: impl FnOnce(&mut dyn Progress) -> Result<Source, TaskError>,
@@ -51,7 +54,7 @@ fn kept(
     keep(make_on(ask, open(progress)?, progress)?, out, drawn, progress)
 }
 
-/// Computes and evaluates a drive as [`run()`] does, without writing a folder, and returns all data.
+/// Computes and evaluates a drive as [`run()`] does, but returns all data and writes no folder.
 ///
 /// # Errors
 /// Those of [`run()`], except the errors of writing files.
@@ -60,7 +63,8 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     make_on(ask, source::open(&ask.surface, progress)?, progress)
 }
 
-/// Computes and evaluates a drive as [`make()`] does, for a surface or responses that are given instead of those that the request names.
+/// Computes and evaluates a drive as [`make()`] does, but for the surface or responses in `source` instead
+/// of those that the request names.
 ///
 /// # Errors
 /// Those of [`make()`], except the errors of reading the surface or responses.
@@ -72,7 +76,8 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     judge(common, source, progress, plan, |stroke, surface, models| stroked(ask, surface, &stroke, models))
 }
 
-/// Refuses what makes no sense by the request and its surface alone, so that nobody waits for modes to be told so.
+/// Checks a request and its surface before any mode is computed, and returns an error for values that make
+/// no sense.
 ///
 /// # Errors
 /// Those of [`run()`] that need neither modes nor a drive.
@@ -83,7 +88,8 @@ pub fn check(ask: &Ask, surface: &Surface) -> Result<(), TaskError> {
     planned(ask, surface).map(drop)
 }
 
-/// The stroke, whose pulses are on a surface and slow enough for its waves.
+/// The stroke of a request, after a check that its pulses lie on the surface and that its speed suits the
+/// waves.
 fn planned(ask: &Ask, surface: &Surface) -> Result<Stroke, TaskError> {
     let [speed, level] = velocities(ask)?;
     let path = Pattern { filled: false, ..ask.path.pattern("path")? };
@@ -98,12 +104,12 @@ fn planned(ask: &Ask, surface: &Surface) -> Result<Stroke, TaskError> {
     Ok(stroke)
 }
 
-/// How fast the focus moves, and the velocity of the sheet that is asked for there, in m/s.
+/// Speed of the focus along the path, and requested velocity of the sheet at the focus, both in m/s.
 fn velocities(ask: &Ask) -> Result<[f64; 2], TaskError> {
     Ok([above_zero(ask.speed_m_s, "speed_m_s", "m/s")?, above_zero(ask.level_m_s, "level_m_s", "m/s")?])
 }
 
-/// The error about a stroke; if it is about its speed, with the field that gives it.
+/// Converts an error about a stroke; an error about its speed names the field of the request that sets it.
 fn refused(error: FocusError) -> TaskError {
     match &error {
         FocusError::Range(range) if range.what.starts_with("speed") => {
@@ -156,8 +162,9 @@ fn stroked(
     })
 }
 
-/// Least and greatest velocity along a path, in m/s: at each place at the instant of the nearest pulse, and the largest within half an
-/// interval of the place's own instant.
+/// Least and greatest velocity along a path, in m/s: first at each place at the instant of the nearest
+/// pulse, then as the largest velocity within half an interval between pulses around the time at which the
+/// focus passes the place.
 fn evenness(
     stroke: &Stroke,
     instants: &[usize],

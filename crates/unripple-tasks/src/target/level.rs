@@ -1,23 +1,23 @@
-//! How strong a drive is to be, as a request gives it.
+//! Level of a drive in a request.
 
 use crate::TaskError;
 use crate::numbers::above_zero;
 use serde::{Deserialize, Serialize};
 use unripple::act::Level;
 
-/// How strong a drive is to be.
+/// Level to which a drive is scaled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LevelAsk {
-    /// No place moves by more than about half the sheet's thickness, which linear theory allows; less where the drive
-    /// limit is reached first.
+    /// Nowhere is the displacement above about half the sheet's thickness, up to which linear theory holds;
+    /// it is lower if the drive limit is reached first.
     #[default]
     Linear,
-    /// As strong as the drive limit allows, though linear theory may not hold there.
+    /// The level at which the drive reaches its limit, though linear theory may not hold there.
     Limit,
     /// Peak displacement of the first target, in m.
     PeakM(f64),
-    /// Level of the first target as felt, in dB above the threshold of touch.
+    /// Felt level at the first target: displacement over the threshold of vibrotactile detection, in dB.
     FeltDb(f64),
 }
 
@@ -35,8 +35,8 @@ impl LevelAsk {
         })
     }
 
-    /// Converts the level for responses whose scale is unknown for the reason `why`, if there is one: then only the
-    /// drive limit can be asked for.
+    /// Converts the level to a [`Level`] for responses; if their scale is unknown (`why` states the
+    /// reason), only the drive limit can be requested.
     ///
     /// # Errors
     /// [`TaskError::Ask`] of an absolute level on responses of unknown scale.

@@ -1,4 +1,4 @@
-//! Targets and level of a focus, as asks give them.
+//! Targets and level of a focus, as requests specify them.
 
 mod level;
 mod point;
@@ -11,8 +11,8 @@ pub use shape::{LineAsk, ShapeAsk};
 use crate::TaskError;
 use unripple::focus::{Pattern, Target};
 
-/// Targets of a request: points first, then shapes, sampled at points close enough for the shortest wavelength
-/// `lambda_min` (m).
+/// Targets of a request: points first, then shapes, which are sampled at points close enough for the
+/// shortest wavelength `lambda_min` (m).
 ///
 /// # Errors
 /// [`TaskError::Ask`] if there is none, and of shapes that make no sense; those of reading drawings.

@@ -1,17 +1,18 @@
-//! A point that is to be in focus, as a request gives it.
+//! A target point of a focus in a request.
 
 use crate::numbers::above_zero;
 use crate::{Place, TaskError, point};
 use serde::{Deserialize, Serialize};
 use unripple::focus::Target;
 
-/// A point that is to be in focus.
+/// A target point of a focus.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PointAsk {
     /// Place of the point, in m.
     pub at_m: Place,
-    /// Level of the target relative to the other targets, a ratio; below 0 the sheet moves the other way.
+    /// Level of the target relative to the other targets, a ratio; a negative value reverses the direction
+    /// of motion.
     pub gain: f64,
     /// Repetition rate of the focus, in Hz; by default the focus occurs once.
     pub rate_hz: Option<f64>,
@@ -24,7 +25,7 @@ impl Default for PointAsk {
 }
 
 impl PointAsk {
-    /// A point at `x` and `y`, in m, that is in focus once, with a gain of 1.
+    /// A target point at `x` and `y`, in m, that is in focus once, with a gain of 1.
     pub fn at(x: f64, y: f64) -> Self {
         Self { at_m: [x, y], ..Self::default() }
     }

@@ -1,4 +1,4 @@
-//! A shape or a path, as a request gives it.
+//! A shape or a path in a request.
 
 use crate::{Place, TaskError, point};
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,8 @@ use unripple::core::Point;
 use unripple::focus::{Line, Pattern};
 use unripple_store::Drawing;
 
-/// How closely the curves of an SVG shape are followed, in metres. A hundredth of a focus's width and less.
+/// Largest deviation of polylines from the curves of an SVG shape, in metres: a hundredth of a focus's
+/// width and less.
 const TOLERANCE: f64 = 0.05e-3;
 
 /// A polyline, given by its corners.
@@ -20,22 +21,22 @@ pub struct LineAsk {
     pub closed: bool,
 }
 
-/// A shape as it is requested: as a target, or as the path of a moving focus.
+/// A shape in a request: a target, or the path of a moving focus.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum ShapeAsk {
     /// The outline of an equilateral triangle that stands on a side.
     Triangle {
-        /// Its centre, in m.
+        /// Centre of the triangle, in m.
         centre_m: Place,
-        /// Length of a side, in m.
+        /// Length of the triangle's sides, in m.
         side_m: f64,
     },
     /// The circumference of a circle.
     Circle {
-        /// Its centre, in m.
+        /// Centre of the circle, in m.
         centre_m: Place,
-        /// Its radius, in m.
+        /// Radius of the circle, in m.
         radius_m: f64,
     },
     /// Polylines, or the areas that they enclose.
@@ -53,7 +54,7 @@ pub enum ShapeAsk {
 }
 
 impl ShapeAsk {
-    /// Path of the SVG file of the shape, if it has one, to be changed.
+    /// Mutable reference to the path of the shape's SVG file; `None` for shapes without a file.
     pub fn file(&mut self) -> Option<&mut PathBuf> {
         match self {
             Self::Svg { file } => Some(file),

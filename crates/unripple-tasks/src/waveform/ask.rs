@@ -11,21 +11,21 @@ use std::path::PathBuf;
 pub enum SoundAsk {
     /// A tone of one frequency.
     Sine {
-        /// Its frequency, in Hz.
+        /// Frequency of the tone, in Hz.
         hz: f64,
-        /// How long it lasts, in s.
+        /// Duration of the tone, in s.
         length_s: f64,
     },
-    /// Some cycles of a tone.
+    /// A number of cycles of a tone, under a raised-cosine window.
     Burst {
-        /// Its frequency, in Hz.
+        /// Frequency of the tone, in Hz.
         hz: f64,
         /// Number of cycles of the tone.
         cycles: f64,
     },
     /// A single pulse in the shape of a raised cosine.
     Click {
-        /// How long it lasts, in s.
+        /// Duration of the pulse, in s.
         length_s: f64,
     },
     /// The first channel of a recording.
@@ -33,11 +33,11 @@ pub enum SoundAsk {
         /// Path of the WAV file.
         file: PathBuf,
     },
-    /// Samples given in the request itself.
+    /// Samples that the request itself contains.
     Samples {
         /// Sample values; only their ratios matter, since the level sets the peak.
         values: Vec<f64>,
-        /// Sample rate of the values, in Hz.
+        /// Sample rate of `values`, in Hz.
         rate_hz: f64,
     },
 }
@@ -48,14 +48,14 @@ pub enum SoundAsk {
 pub struct WaveformAsk {
     /// Place of the target, in m.
     pub at_m: Place,
-    /// The waveform that it is to follow.
+    /// The waveform that the target is to follow.
     pub sound: SoundAsk,
     /// Peak displacement of the waveform, in m.
     #[serde(default = "micrometre")]
     pub level_m: f64,
 }
 
-/// Level of a waveform if none is given, in m: felt clearly at most frequencies.
+/// Default peak displacement of a waveform, in m: felt clearly at most frequencies.
 fn micrometre() -> f64 {
     1e-6
 }
@@ -68,7 +68,7 @@ pub struct Ask {
     pub surface: SurfaceAsk,
     /// Targets with the waveforms that they follow.
     pub waveforms: Vec<WaveformAsk>,
-    /// Places that are to stay still meanwhile, in m.
+    /// Places that are to stay still while the targets follow their waveforms, in m.
     pub silent_m: Vec<Place>,
     /// Time by which the drive may begin before a waveform and end after it, in s.
     pub window_s: Option<f64>,
@@ -82,7 +82,8 @@ pub struct Ask {
     pub output: Option<PathBuf>,
     /// Write no figures.
     pub no_figures: bool,
-    /// Columns of a page that figures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    /// Width of all figures in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default each figure
+    /// has its own width.
     pub columns: Option<usize>,
 }
 

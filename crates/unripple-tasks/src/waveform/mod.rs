@@ -1,4 +1,4 @@
-//! `waveform`: a drive by which targets follow waveforms while other places are still.
+//! `waveform`: computes a drive by which targets follow waveforms while other places are still.
 
 mod ask;
 mod report;

@@ -11,12 +11,13 @@ use unripple::core::{Responses, Surface};
 use unripple::field::{Aim, Field, Wanted};
 use unripple::focus::{PlayOptions, Target, Waveform, play};
 
-/// Waveforms are planned on modes up to the first multiple of the band, and evaluated by default on those up to the second, or the third where
-/// that is out of reach: at low frequencies a sheet yields by modes far above.
+/// Multiples of the top of the band up to which modes are used: 2 to plan waveforms, and by default 3 to
+/// evaluate them, or 2 where 3 is out of reach. At low frequencies, modes far above add to the sheet's
+/// flexibility.
 const BANDS: [&[f64]; 2] = [&[2.0], &[3.0, 2.0]];
 
-/// Computes a drive by which targets follow waveforms while other places are still, evaluates it, and writes it to a folder if one is
-/// given.
+/// Computes a drive by which targets follow waveforms while other places are still, evaluates it, and
+/// writes it to a folder if the request names one.
 ///
 /// # Errors
 /// [`TaskError::Ask`] without a waveform, and of numbers that make no sense; those of reading and writing files; those of the method;
@@ -25,7 +26,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     kept(ask, |progress| source::open(&ask.surface, progress), progress)
 }
 
-/// Does what [`run()`] does, on a surface that is given instead of the one that the request names; the record in the folder holds the request.
+/// Does what [`run()`] does, but on the surface in `source` instead of the one that the request names; the
+/// record in the output folder contains the request.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of reading the surface.
@@ -33,7 +35,8 @@ pub fn run_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result<
     kept(ask, |_| Ok(source), progress)
 }
 
-/// Computes and evaluates a drive on what `open` gives, and keeps it in a folder if one is given.
+/// Computes and evaluates a drive on the surface that `open` returns, and writes it to a folder if the
+/// request names one.
 fn kept(
     ask: &Ask,
     open: impl FnOnce(&mut dyn Progress) -> Result<Source, TaskError>,
@@ -45,7 +48,7 @@ fn kept(
     keep(make_on(ask, open(progress)?, progress)?, out, drawn, progress)
 }
 
-/// Computes and evaluates a drive as [`run()`] does, without writing a folder, and returns all data.
+/// Computes and evaluates a drive as [`run()`] does, but returns all data and writes no folder.
 ///
 /// # Errors
 /// Those of [`run()`], except the errors of writing files.
@@ -54,8 +57,9 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     make_on(ask, source::open(&ask.surface, progress)?, progress)
 }
 
-/// Computes and evaluates a drive as [`make()`] does, for a surface that is given instead of the one that the request names. Waveforms are
-/// planned on modes above the band: not on responses of the band that are given, but on what has been solved.
+/// Computes and evaluates a drive as [`make()`] does, but for the surface in `source` instead of the one
+/// that the request names. Waveforms need modes above the band, so responses of the band that were computed
+/// earlier are used only where modes above it are out of reach.
 ///
 /// # Errors
 /// Those of [`make()`], except the errors of reading the surface.
@@ -67,7 +71,8 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     judge(common, source, progress, plan, |waves, surface, models| followed(ask, &waves, surface, models))
 }
 
-/// Refuses what makes no sense by the request and its surface alone, so that nobody waits for modes to be told so.
+/// Checks a request and its surface before any mode is computed, and returns an error for values that make
+/// no sense.
 ///
 /// # Errors
 /// Those of [`run()`] that need neither modes nor a drive.
@@ -79,7 +84,7 @@ pub fn check(ask: &Ask, surface: &Surface) -> Result<(), TaskError> {
     planned(ask, surface).map(drop)
 }
 
-/// Refuses to play nothing.
+/// Returns an error if the request has no waveform.
 fn something(ask: &Ask) -> Result<(), TaskError> {
     match ask.waveforms.is_empty() {
         true => Err(TaskError::ask("waveforms", "a waveform at a place", "none")),
@@ -87,7 +92,8 @@ fn something(ask: &Ask) -> Result<(), TaskError> {
     }
 }
 
-/// The waveforms at the rate of a surface, whose places they and the silence are on.
+/// The waveforms at the surface's sample rate, after a check that their targets and the silent places lie
+/// on the surface.
 fn planned(ask: &Ask, surface: &Surface) -> Result<Vec<Waveform>, TaskError> {
     ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
     let waves = ask.waveforms.iter().map(|waveform| sound::waveform(waveform, surface.emission.rate));

@@ -1,4 +1,4 @@
-//! Waveforms from asks.
+//! Samples of the waveforms in a request.
 
 use super::{SoundAsk, WaveformAsk};
 use crate::numbers::above_zero;
@@ -7,7 +7,7 @@ use unripple::focus::Waveform;
 use unripple::focus::waveform::{burst, click, resampled, sine};
 use unripple_store::read_wav;
 
-/// A waveform at the rate (Hz) of a surface.
+/// The waveform of a request, at the surface's sample rate (Hz).
 pub(super) fn waveform(ask: &WaveformAsk, rate: f64) -> Result<Waveform, TaskError> {
     let level = above_zero(ask.level_m, "level_m", "m")?;
     let samples = match &ask.sound {
@@ -31,7 +31,7 @@ fn refused(error: impl std::fmt::Display) -> TaskError {
     TaskError::Input(format!("`waveforms`: {error}"))
 }
 
-/// Samples at the surface's rate, the largest brought to `level`.
+/// Samples resampled to the surface's rate and scaled so that the largest is `level`.
 fn recorded(values: &[f64], from: f64, level: f64, rate: f64, file: &str) -> Result<Vec<f64>, TaskError> {
     let mut samples = resampled(values, from, rate).map_err(TaskError::input)?;
     let peak = samples.iter().fold(0.0, |m: f64, x| m.max(x.abs()));

@@ -9,7 +9,7 @@ use crate::focus::{Focused, Focuser, Options};
 pub struct Acted {
     /// The focus as computed, before its drive is scaled to the level and rounded, with its timing.
     pub focused: Focused,
-    /// The drive at the level asked for, as float32 samples.
+    /// The drive at the requested level, as float32 samples.
     pub drive: Drive,
     /// Level of the drive relative to its limits, and what decided it.
     pub strength: Strength,
@@ -24,7 +24,7 @@ impl<'a> Act<'a> {
         Readouts::of(self.responses)
     }
 
-    /// Computes the drive, brings it to its level and evaluates it.
+    /// Computes the drive, brings it to the requested level and evaluates it.
     ///
     /// # Errors
     /// Those of [`carries`], [`Focuser`], [`Act::send`] and [`Act::judge`].
@@ -40,8 +40,8 @@ impl<'a> Act<'a> {
         self.run_from(self.responses, on)
     }
 
-    /// As [`Act::run_on`], with the drive computed from `known`, other responses of the surface than the act's own, on which
-    /// it is brought to its level and evaluated.
+    /// As [`Act::run_on`], but the drive is computed from `known`, other responses of the surface; it is
+    /// brought to its level and evaluated on [`Act::responses`].
     ///
     /// # Errors
     /// Those of [`Act::run`].
@@ -59,7 +59,7 @@ impl<'a> Act<'a> {
         sent.notes.iter().cloned().chain(gave_up).collect()
     }
 
-    /// Evaluates the field of a drive on the act's own responses.
+    /// Evaluates the field of a drive on [`Act::responses`].
     ///
     /// # Errors
     /// Those of [`Readouts::fine`] and [`judge()`].

@@ -18,7 +18,8 @@ pub(super) struct Aimed {
 }
 
 impl Aimed {
-    /// Those of a focus on some targets, made with a window of `window` seconds.
+    /// Places and instants for the evaluation of a focus on `targets`, made with a window of `window`
+    /// seconds.
     pub fn of(targets: &[Target], focused: &Focused, window: f64) -> Self {
         let rate = focused.drive.rate();
         let seconds = |samples: usize| samples as f64 / rate;

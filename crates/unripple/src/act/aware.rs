@@ -50,7 +50,7 @@ impl Aware {
         Ok(Self { under, others })
     }
 
-    /// A focuser for these conditions, given the responses of the bare surface.
+    /// A focuser for these conditions; `bare` are the responses of the surface without fingers.
     ///
     /// # Errors
     /// Those of [`Focuser::beside`].

@@ -1,15 +1,15 @@
-//! A level beyond the drive at its limit.
+//! A requested level above that of the drive at its limit.
 
 use super::LevelKind;
 
-/// A level asked for that the drive limit does not give.
+/// A requested level above that of the drive at its limit.
 pub(super) struct Beyond {
-    /// The kind of level.
+    /// The kind of the requested level.
     pub what: LevelKind,
-    /// Level that the limit gives, with its unit.
+    /// Level of the drive at its limit, with its unit.
     pub most: String,
-    /// Level that was asked for, as text.
+    /// Requested level, as text without its unit.
     pub wanted: String,
-    /// Unit of the value, as people write it.
+    /// Unit of `wanted`, as text.
     pub unit: &'static str,
 }

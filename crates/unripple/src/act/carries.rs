@@ -3,8 +3,9 @@
 use super::ActError;
 use crate::core::Conditions;
 
-/// Refuses a duration (s) shorter than one period at the top of the band: no wave of the band fits into it, so a drive
-/// of that length focuses nothing, and responses of that length hold nothing to focus with.
+/// Returns an error for a duration (s) shorter than one period at the top of the band: no wave of the band
+/// fits into it, so a drive of that length cannot focus, and responses of that length contain nothing to
+/// focus with.
 ///
 /// # Errors
 /// [`ActError::Short`], with the shortest duration allowed.

@@ -18,14 +18,15 @@ pub enum ActError {
     /// The field of a drive could not be computed or evaluated.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// The level asked for is not a legal number, is above what the drive limit gives, or cannot be reached.
+    /// The requested level is not a legal number, is above that of the drive at its limit, or cannot be
+    /// reached.
     #[error("{what}: expected {expected}, found {found}")]
     Level {
-        /// Kind of level asked for.
+        /// Kind of the requested level.
         what: LevelKind,
         /// The legal values.
         expected: String,
-        /// The value asked for, or why it cannot be reached.
+        /// The requested value, or why it cannot be reached.
         found: String,
     },
     /// A number is out of its range.
@@ -41,7 +42,7 @@ pub enum ActError {
         least: f64,
         /// The top of the band, in Hz.
         top: f64,
-        /// The duration asked for, in seconds.
+        /// The duration that is too short, in seconds.
         found: f64,
     },
     /// The band of the surface has no mode, so that nothing resonates in it.
@@ -55,7 +56,7 @@ pub enum ActError {
     /// Modal responses are needed, and these are sampled.
     #[error("responses: expected modes, which {what} needs, found samples")]
     NeedsModes {
-        /// What needs modal responses.
+        /// The computation that needs modal responses.
         what: &'static str,
     },
 }
@@ -77,7 +78,7 @@ impl ActError {
 pub enum LevelKind {
     /// Peak displacement of the first target.
     Peak,
-    /// Level felt at the first target, in dB above the threshold of touch.
+    /// Felt level at the first target, in dB above the threshold of touch.
     Felt,
 }
 

@@ -12,9 +12,11 @@ pub struct Felt {
     /// Motion of the finger, and the power that it absorbs.
     #[serde(flatten)]
     pub loaded: Touch,
-    /// Peak velocity at the contact disc without fingers on the surface, over that with them, a ratio.
+    /// Peak velocity at the contact disc without fingers on the surface, divided by that with the fingers
+    /// (ratio).
     pub velocity_attenuation: f64,
-    /// Peak displacement at the contact disc without fingers on the surface, over that with them, a ratio.
+    /// Peak displacement at the contact disc without fingers on the surface, divided by that with the
+    /// fingers (ratio).
     pub displacement_attenuation: f64,
 }
 

@@ -17,14 +17,15 @@ pub struct Judged {
     pub until: f64,
     /// Slopes, strains and added tension of the field; `None` for sampled responses, which are on no grid.
     pub linearity: Option<Linearity>,
-    /// Mean mechanical power into the sheet over the drive or its last period, in W, as far as [`power()`] knows it.
+    /// Mean mechanical power into the sheet over the drive or its last period, in W; `None` where
+    /// [`power()`] cannot determine it.
     pub power: Option<f64>,
     /// Warnings, such as where linear theory no longer holds.
     pub notes: Vec<Note>,
 }
 
-/// Evaluates the field of a drive at the aims; `period` is that of a repeated drive, in seconds. Traces last until
-/// `until` seconds, or as long as the field is known.
+/// Evaluates the field of a drive at the places and instants `aims`; `period` is that of a repeated drive,
+/// in seconds. Traces last until `until` seconds, or as long as the field is known.
 ///
 /// # Errors
 /// Those of [`Field::measure`] and [`Field::traces`].
@@ -52,8 +53,8 @@ pub fn known(field: &Field) -> f64 {
     field.known().saturating_sub(1) as f64 / field.rate()
 }
 
-/// How far the deflections of a field are from the small ones of linear theory. Without slopes, displacement alone
-/// counts.
+/// Measures of how large the deflections of a field are for linear theory. Without slopes, displacement
+/// alone counts.
 pub(super) fn linear(surface: &Surface, reach: &Reach) -> Linearity {
     let steep = reach.steepness.unwrap_or_default();
     linearity(surface, reach.displacement, steep.slope, steep.mean_square_slope, steep.curvature)

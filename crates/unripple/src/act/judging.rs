@@ -5,9 +5,9 @@ use super::{ActError, Note, Report};
 use crate::core::{Responses, Surface};
 use crate::physics::{PhysicsError, sampled_hz};
 
-/// Multiple of the band up to which the modes go that drives are evaluated on by default. On the modes that it was computed from a
-/// drive looks better than on a sheet, which has modes above as well. With twice this value, there are up to four times as many modes to
-/// compute.
+/// Highest frequency of the modes that drives are evaluated on by default, as a multiple of the top of the
+/// band. A drive looks better on the modes that it was computed from than on a sheet, which has higher
+/// modes as well. With twice this value, there are up to four times as many modes to compute.
 pub const JUDGED_BANDS: f64 = 2.0;
 
 /// Highest frequency (Hz) of the modes that drives are evaluated on: `bands` times the top of the surface's band, at most 0.45 of its
@@ -22,16 +22,17 @@ pub fn judged_hz(surface: &Surface, bands: f64) -> f64 {
 pub struct Judging {
     /// Highest frequency of the modes, in Hz.
     pub hz: f64,
-    /// Reason why the modes end at the top of the band, where those up to the default frequency are out of reach.
+    /// Note on why the modes end below the default frequency; `None` if they reach it.
     pub note: Option<Note>,
-    /// How accurate their frequencies are, where that is less than was aimed at.
+    /// Note on the accuracy of the natural frequencies, if it is lower than intended; else `None`.
     pub inexact: Option<Note>,
 }
 
 impl Judging {
-    /// Calls `solve` with the highest frequency (Hz) of the modes to evaluate drives on: `asked`, or by default [`judged_hz`] with
-    /// [`JUDGED_BANDS`]. Where the modes up to the default are too many for the memory, or not to be had with the accuracy, `solve` is
-    /// called again for those of the band, and a note says so.
+    /// Calls `solve` with the highest frequency (Hz) of the modes to evaluate drives on: `asked`, or by
+    /// default [`judged_hz`] with [`JUDGED_BANDS`]. If the modes up to the default need too much memory, or
+    /// cannot be computed accurately enough, `solve` is called again for those of the band, and a note says
+    /// so.
     ///
     /// ```
     /// use unripple::act::{Judging, model};
@@ -54,8 +55,8 @@ impl Judging {
         Self::among(surface, asked, &[JUDGED_BANDS], solve)
     }
 
-    /// As [`Judging::of`], for drives that are evaluated by default on modes up to the first of `bands`, descending multiples of the
-    /// band; where those are out of reach on the next of them, and last on the band.
+    /// As [`Judging::of`], but the default frequencies are the multiples `bands` of the top of the band, in
+    /// descending order: the first within reach is used, or the top of the band if none is.
     ///
     /// # Errors
     /// Those of `solve`.
@@ -69,47 +70,50 @@ impl Judging {
         Ok((found, Self { hz, note: missed.map(|missed| missed.on_judging(surface, hz)), inexact: None }))
     }
 
-    /// These modes with a note if the frequencies of `responses`, which were computed from them, are less accurate than was aimed at.
+    /// Adds a note if the natural frequencies of `responses`, which were computed from these modes, are
+    /// less accurate than intended.
     pub fn told_of(self, surface: &Surface, responses: &Responses) -> Self {
         Self { inexact: inexact(surface, responses), ..self }
     }
 
-    /// Why the modes are not those that were wanted, in words.
+    /// Text on why the modes do not reach the default frequency or accuracy; `None` if they do.
     pub fn why(&self) -> Option<String> {
         let texts: Vec<&str> = self.note.iter().chain(&self.inexact).map(|note| note.text.as_str()).collect();
         (!texts.is_empty()).then(|| texts.join("; "))
     }
 
-    /// Adds to a report the frequency up to which modes of `surface` were used for its metrics, and the notes on that.
+    /// Adds to a report the frequency up to which modes of `surface` were used for its metrics, and the
+    /// notes on them.
     pub fn tell(&self, surface: &Surface, report: &mut Report) {
         report.judged_on = Some(format!("{}, modes up to {} Hz", surface.name, self.hz));
         report.notes.extend(self.note.iter().chain(&self.inexact).cloned());
     }
 }
 
-/// What was computed from the modes up to the highest frequency within reach.
+/// Result that was computed from the modes up to the highest frequency within reach.
 #[derive(Clone, Debug)]
 pub struct Reached<T> {
-    /// What was computed.
+    /// The result, as `solve` in [`reached`] returned it.
     pub found: T,
-    /// Highest frequency of its modes, in Hz.
+    /// Highest frequency of the modes that were used, in Hz.
     pub hz: f64,
-    /// The modes that were to be used, if they are out of reach.
+    /// The modes that should have been used, if they are out of reach; else `None`.
     pub missed: Option<Missed>,
 }
 
-/// Modes out of reach, by their number or accuracy.
+/// Modes that are out of reach: too many for the memory, or not computable with the required accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missed {
-    /// Highest frequency of these modes, in Hz.
+    /// Highest frequency of the modes that are out of reach, in Hz.
     pub hz: f64,
-    /// Why they are out of reach.
+    /// Why the modes are out of reach.
     pub error: ActError,
 }
 
-/// Calls `solve` with the highest frequency (Hz) of the modes to use: `asked`, or by default [`judged_hz`] with the first of `bands`,
-/// descending multiples of the band. Where these modes are too many for the memory, or not to be had with the accuracy, `solve` is called
-/// again with the next of them, and last with the top of the band.
+/// Calls `solve` with the highest frequency (Hz) of the modes to use: `asked`, or by default [`judged_hz`]
+/// with the first of `bands`, descending multiples of the top of the band. If these modes need too much
+/// memory, or cannot be computed accurately enough, `solve` is called again with the next multiple, and
+/// last with the top of the band.
 ///
 /// # Errors
 /// Those of `solve`.
@@ -142,7 +146,8 @@ pub fn reached<T>(
 }
 
 impl Missed {
-    /// A note that a drive on `surface` is evaluated on the modes up to `hz` (Hz) instead of these.
+    /// A note that a drive on `surface` is evaluated on the modes up to `hz` (Hz) instead of the missed
+    /// ones.
     fn on_judging(&self, surface: &Surface, hz: f64) -> Note {
         let Self { hz: wanted, error } = self;
         Note {
@@ -155,7 +160,8 @@ impl Missed {
         }
     }
 
-    /// A note that a drive for waveforms on `surface` is planned on the modes up to `hz` (Hz) instead of these.
+    /// A note that a drive for waveforms on `surface` is planned on the modes up to `hz` (Hz) instead of
+    /// the missed ones.
     pub fn on_planning(&self, surface: &Surface, hz: f64) -> Note {
         let Self { hz: wanted, error } = self;
         Note {

@@ -1,4 +1,5 @@
-//! Level of a drive: by linear theory, by limit, by peak, as felt.
+//! Level that a drive is brought to: by linear theory, by the drive limit, by peak displacement, or by felt
+//! level.
 
 use super::Readouts;
 use super::aimed::Aimed;
@@ -13,15 +14,15 @@ use crate::physics::design::{LinearBound, LinearLevel};
 /// Level that a drive is brought to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Level {
-    /// As strong as linear theory allows ([`LinearLevel`]: nowhere by more than half the sheet's thickness), at most
-    /// at the limit.
+    /// The highest level at which linear theory holds ([`LinearLevel`]: displacements of at most half the
+    /// sheet's thickness, and small slopes and strains), but at most that of the drive limit.
     #[default]
     Linear,
-    /// As strong as the drive limit allows.
+    /// The level at which the drive reaches its limit.
     Limit,
-    /// With this largest displacement of the first target (the mean over its points), in metres.
+    /// A level with this peak displacement of the first target (the mean over its points), in metres.
     Peak(f64),
-    /// With this level felt at the first target, in dB above the threshold of touch.
+    /// A level with this felt level at the first target, in dB above the threshold of touch.
     Felt(f64),
 }
 
@@ -75,7 +76,7 @@ impl Level {
         })
     }
 
-    /// Refuses a level asked for that is beyond the drive at its limit.
+    /// Returns an error if the requested level is above that of the drive at its limit.
     ///
     /// # Errors
     /// [`ActError::Level`].
@@ -89,7 +90,7 @@ impl Level {
         }
     }
 
-    /// The limit that a wanted level exceeds; `None` if the drive at its limit gives it.
+    /// By what the requested level exceeds that of the drive at its limit; `None` if it does not.
     pub(super) fn beyond(self, step: Step) -> Option<Beyond> {
         let found = match self {
             Self::Linear | Self::Limit => return None,
@@ -136,7 +137,7 @@ fn micrometres(metres: f64) -> String {
     format!("{um:.12e}").parse::<f64>().unwrap_or(um).to_string()
 }
 
-/// A level in tenths of a dB, rounded down to one that is reached.
+/// A level rounded down to tenths of a dB, so that it can be reached.
 fn below(db: f64) -> f64 {
     (10.0 * db).floor() / 10.0
 }
@@ -153,7 +154,7 @@ fn felt(on: &Readouts<'_>, drive: &Drive, aimed: &Aimed) -> Result<f64, ActError
     })
 }
 
-/// Largest displacement of the first target's mean over the time measured, in metres.
+/// Largest displacement of the first target (the mean over its points) over the evaluated time, in metres.
 fn largest(on: &Readouts<'_>, drive: &Drive, aimed: &Aimed) -> Result<f64, ActError> {
     // Traces read no grid.
     let field = on.fine()?.field(drive)?;

@@ -1,4 +1,4 @@
-//! What a method loses below the limit of the drive, or does not reach at it, as notes.
+//! Notes on what a method loses below the drive limit, or does not reach at the limit.
 
 use super::{Act, ActError, Note, Readouts, Strength};
 use crate::core::Drive;
@@ -18,7 +18,7 @@ pub(super) fn gave_up(act: &Act<'_>, focused: &Focused, strength: &Strength) -> 
     strength.at_limit().then(|| Note { topic: "method", text: text() })
 }
 
-/// A note on what a method loses below the limit of the drive.
+/// A note on what a method loses if its drive is below the limit.
 pub(super) fn idle(
     act: &Act<'_>,
     (focuser, on): (&Focuser<'_>, &Readouts<'_>),
@@ -51,7 +51,7 @@ fn unlimited(act: &Act<'_>, focused: &Focused) -> String {
     format!("{} with a strength of {strength}", Method::Concentrate)
 }
 
-/// One-bit below the limit, beside time reversal at the same peak.
+/// Text that compares a one-bit drive below the limit with time reversal at the same peak.
 fn one_bit(
     act: &Act<'_>,
     (focuser, on): (&Focuser<'_>, &Readouts<'_>),

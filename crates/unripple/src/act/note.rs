@@ -7,7 +7,7 @@ use crate::focus::{Focused, Target};
 use crate::physics::design::{Linearity, limits, rigid_motions};
 use serde::Serialize;
 
-/// Topic of the note on why levels as felt do not hold, by which a report knows that they do not.
+/// Topic of the note on why felt levels are not valid; a report that has such a note is worded accordingly.
 pub(super) const FELT: &str = "felt";
 
 /// Share of energy above what the threshold of touch was measured to, from which on levels as felt do not hold. With twice this value,
@@ -51,7 +51,7 @@ pub fn nearby(focused: &Focused, targets: &[Target]) -> Vec<Note> {
     places.collect()
 }
 
-/// Warnings that go with measured figures.
+/// Warnings that go with the metrics of a field.
 pub(super) fn all(surface: &Surface, measured: &Measured, largest: f64, found: &Linearity) -> Vec<Note> {
     let mut notes = linear_theory(surface, largest, found);
     notes.extend(limits(surface).into_iter().map(|limit| Note { topic: "model", text: limit.text }));
@@ -184,8 +184,8 @@ fn linear_theory(surface: &Surface, largest: f64, found: &Linearity) -> Vec<Note
     notes
 }
 
-/// A note that the level is that of the limit, because neither thickness nor tension and strength of the sheet are
-/// known.
+/// A note that the drive is at its limit because the sheet's thickness is unknown, so that no bound of
+/// linear theory is known.
 pub(super) fn unknown(surface: &Surface, drive: &Drive) -> Option<Note> {
     let known = surface.sheet.thickness > 0.0;
     (!known && drive.peak() > 0.0).then(|| Note {
@@ -196,7 +196,7 @@ pub(super) fn unknown(surface: &Surface, drive: &Drive) -> Option<Note> {
     })
 }
 
-/// A note that a drive is at its limit, because the level asked for is above it.
+/// A note that a drive is at its limit, because the requested level is above that of the limit.
 pub(super) fn beyond(beyond: &Beyond) -> Note {
     let Beyond { most, wanted, unit, .. } = beyond;
     Note {

@@ -13,7 +13,8 @@ pub const CELLS: f64 = 8.0;
 /// need as many as metrics.
 const COARSE: f64 = 4.0;
 
-/// Cells per shortest wavelength where only the motion at targets matters, which no grid changes.
+/// Cells per shortest wavelength where only the motion at targets matters, which does not depend on the
+/// grid.
 const FEWEST: f64 = 1.0;
 
 /// The grids on which drives are brought to their level and evaluated. Each is computed when it is first needed and
@@ -27,7 +28,8 @@ pub struct Readouts<'a> {
 }
 
 impl<'a> Readouts<'a> {
-    /// Readouts of the responses on which drives are evaluated.
+    /// Readouts of `responses`, on which drives are evaluated; each grid is computed when it is first
+    /// needed.
     pub fn of(responses: &'a Responses) -> Self {
         Self { responses, fewest: OnceLock::new(), coarse: OnceLock::new(), fine: OnceLock::new() }
     }
@@ -40,7 +42,7 @@ impl<'a> Readouts<'a> {
         self.made(&self.fine, CELLS)
     }
 
-    /// Readout on a grid with half as many cells along each side.
+    /// Readout on a coarser grid, with half as many cells along each side as [`Readouts::fine`].
     ///
     /// # Errors
     /// Those of [`Readout::new`].

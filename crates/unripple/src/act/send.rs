@@ -1,4 +1,4 @@
-//! A drive brought to the level asked for.
+//! Brings a drive to the requested level.
 
 use super::aimed::Aimed;
 use super::level::Step;
@@ -8,18 +8,20 @@ use crate::core::Drive;
 use crate::field::Aim;
 use crate::focus::{FocusError, Focused, Focuser, Method};
 
-/// A level that is solved for counts as met when off by less than this share; what is left is scaled.
+/// Relative error below which a level that is solved for counts as met; the remaining error is removed by
+/// scaling.
 const MET: f64 = 1e-6;
 
-/// Steps towards such a level: each leaves less than a fifth of what was missing.
+/// Largest number of steps towards a level that is solved for: each step leaves less than a fifth of the
+/// error before it.
 const STEPS: usize = 12;
 
-/// A drive at the level asked for, and where and when it is evaluated.
+/// A drive at the requested level, and where and when it is evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sent {
     /// The focus as computed, before its drive is scaled to the level and rounded, with its timing.
     pub focused: Focused,
-    /// The drive, as float32 samples.
+    /// The drive at the requested level, as float32 samples.
     pub drive: Drive,
     /// Every target with its focal instant.
     pub aims: Vec<Aim>,
@@ -35,7 +37,7 @@ pub struct Sent {
     pub notes: Vec<Note>,
 }
 
-/// A drive on its way to a level.
+/// A drive after it was brought to a level, and how.
 struct Levelled {
     focused: Focused,
     drive: Drive,
@@ -47,8 +49,9 @@ struct Levelled {
 }
 
 impl Act<'_> {
-    /// Scales a drive that was computed for its limit to the level of this act, as evaluated on the act's own
-    /// responses. For [`Method::Limited`], whose waveforms depend on the level, the drive is solved for that level.
+    /// Scales a drive that was computed for its limit to the level of this act, as evaluated on
+    /// [`Act::responses`]. For [`Method::Limited`], whose waveforms depend on the level, the drive is
+    /// computed anew for that level.
     ///
     /// # Errors
     /// [`ActError::Level`] for levels that are not legal numbers or are above what the drive limit gives, and for a
@@ -61,8 +64,9 @@ impl Act<'_> {
         self.brought((focuser, on), focused, full, step, aimed)
     }
 
-    /// As [`send`](Self::send), but where the level asked for is above what the drive limit gives, the drive is at its
-    /// limit and a note says which level it reaches. Used to show several drives side by side.
+    /// As [`send`](Self::send), but if the requested level is above that of the drive at its limit, the
+    /// drive is at its limit and a note says which level it reaches. Used to show several drives side by
+    /// side.
     ///
     /// # Errors
     /// As [`send`](Self::send), except for levels above what the drive limit gives.
@@ -84,7 +88,7 @@ impl Act<'_> {
         Ok(sent)
     }
 
-    /// Takes the step from a drive at its limit, `full` as it is emitted.
+    /// Brings a drive to its level by the factor `step`; `full` is the drive at its limit as it is emitted.
     fn brought(
         &self,
         (focuser, on): (&Focuser<'_>, &Readouts<'_>),
@@ -142,7 +146,8 @@ impl Act<'_> {
         Ok(Levelled { focused, drive, by, factor, scaled })
     }
 
-    /// The drive whose own level is the one asked for; `None` if it is not found.
+    /// Solves for the drive of [`Method::Limited`] that has the requested level by itself; `None` if none
+    /// is found.
     fn solve(
         &self,
         (focuser, on): (&Focuser<'_>, &Readouts<'_>),

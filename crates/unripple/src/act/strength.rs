@@ -4,10 +4,11 @@ use crate::core::Drive;
 use crate::focus::Options;
 use serde::Serialize;
 
-/// A drive nearer to its limit than this share is at it: rounding to float32 is smaller.
+/// Relative distance from a limit below which a drive counts as being at the limit: rounding to float32 is
+/// smaller.
 const HELD: f64 = 1e-6;
 
-/// What decided the level of a drive: linear theory, a limit, or the level asked for.
+/// What decided the level of a drive: linear theory, a limit, or the requested level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DecidedBy {
@@ -19,11 +20,11 @@ pub enum DecidedBy {
     Yield,
     /// A limit of the drive.
     Limit,
-    /// The displacement asked for.
+    /// The requested displacement at the first target.
     PeakUm,
-    /// The level felt that was asked for.
+    /// The requested felt level at the first target.
     FeltDb,
-    /// The levels asked for of waveforms or of a stroke.
+    /// The requested levels of waveforms or of a stroke.
     Asked,
 }
 
@@ -34,7 +35,8 @@ pub struct Strength {
     pub decided_by: DecidedBy,
     /// Headroom of the drive below the limit that it is nearest to, in dB.
     pub below_limit_db: f64,
-    /// The same headroom as a ratio: the factor by which the drive could grow until it reaches that limit.
+    /// Headroom of the drive as a ratio: the factor by which the drive could grow until it reaches the
+    /// limit that it is nearest to.
     pub below_limit: f64,
     /// Each limit of the drive, and how much of it is used.
     pub limits: Vec<Headroom>,
@@ -50,7 +52,8 @@ pub struct Headroom {
     pub limit: &'static str,
     /// The limit, in the drive's unit.
     pub allowed: f64,
-    /// The drive's own value of the quantity that is limited, in the drive's unit: of the actuator where it is largest, or of all together.
+    /// Value of the limited quantity (peak or rms) in the drive, in the drive's unit: for the actuator
+    /// where it is largest, or for all together.
     pub used: f64,
     /// Headroom below the limit, in dB.
     pub below_db: f64,
@@ -85,7 +88,7 @@ impl Strength {
         self.below_limit < 1.0 + HELD
     }
 
-    /// Adds the factor that linear theory would allow.
+    /// Adds the factor by which linear theory would allow the drive to grow.
     pub(super) fn allowing(mut self, factor: Option<f64>) -> Self {
         self.linear_theory_allows = factor;
         self

@@ -17,7 +17,8 @@ pub fn chosen_window(surface: &Surface, responses: &Responses) -> Recommended {
     chosen_among(&Windows::of(surface), responses)
 }
 
-/// The default window as [`chosen_window`] gives it, for a surface whose contrast with each of the `windows` (s) has been computed.
+/// The default window as [`chosen_window`] returns it, from `windows`: the contrast of the surface with
+/// windows of several lengths, computed earlier.
 pub fn chosen_among(windows: &Windows, responses: &Responses) -> Recommended {
     windows.recommended().within(lasting(responses), windows)
 }

@@ -9,10 +9,11 @@ use rayon::prelude::*;
 use unripple_core::OutOfRange;
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product};
 
-/// Points of the field evaluated at once: their values fit a cache.
+/// Number of points of the field that are evaluated at once: their values fit a cache.
 const POINTS: usize = 128;
 
-/// A readout weight below this share of the largest anywhere is rounding error, not motion.
+/// Readout weight, relative to the largest anywhere, below which it counts as rounding error rather than
+/// motion.
 const REST: f64 = 1e-9;
 
 /// Largest number of cells of a map along its longer side. A million cells bound memory, and no screen shows more.
@@ -26,10 +27,10 @@ const MOST_SAMPLES: usize = 20_000_000;
 pub struct MapOptions {
     /// Window T, in seconds.
     pub window: f64,
-    /// Cells along the longer side of the surface, each with a target at its centre.
+    /// Number of cells along the longer side of the surface, each with a target at its centre.
     pub across: usize,
-    /// Cells per shortest wavelength of the grid on which the field outside the focal discs is evaluated;
-    /// [`act`](crate::act) uses 8.
+    /// Number of cells per shortest wavelength of the grid on which the field outside the focal discs is
+    /// evaluated; [`act`](crate::act) uses 8.
     pub cells: f64,
 }
 
@@ -97,7 +98,7 @@ fn check(what: &'static str, legal: bool, expected: &'static str, found: f64) ->
     if legal { Ok(()) } else { Err(ActError::Range(OutOfRange::new(what, expected, found))) }
 }
 
-/// A grid of `across` cells along the longer side, nearly square ones.
+/// A grid of nearly square cells, `across` of them along the longer side.
 fn cells(conditions: &Conditions, across: usize) -> Grid {
     let (width, height) = conditions.outline.extent();
     let pitch = width.max(height) / across as f64;

@@ -27,11 +27,12 @@ pub(super) fn map(modal: &ModalResponses, samples: usize) -> Mat<f64> {
 /// S(2n) = S(n) + A^n S(n) B^nᵀ and S(n+1) = k lᵀ + A S(n) Bᵀ: exact by repeated doubling for every kind of pole, in
 /// as many steps as the count has binary digits.
 struct Sums {
-    /// Kicks of all modes.
+    /// States of all modes after a unit impulse.
     kicks: Vec<[f64; 2]>,
-    /// Free motion of all modes over one sample.
+    /// State-transition matrices of all modes over one sample.
     once: Vec<Square>,
-    /// For each digit after the first: the motion over the samples summed so far, and whether one more is added after doubling.
+    /// For each binary digit of the number of samples after the first: the state-transition matrices over
+    /// the samples summed so far, and whether one more sample is added after doubling.
     digits: Vec<(Vec<Square>, bool)>,
 }
 
@@ -50,7 +51,7 @@ impl Sums {
         }
     }
 
-    /// Σ v_i v_j over the samples.
+    /// Sum over the samples of the product of two modes' impulse responses, Σ v_i v_j.
     fn of(&self, i: usize, j: usize) -> f64 {
         let ([a, b], [c, d]) = (self.kicks[i], self.kicks[j]);
         let first = [[a * c, a * d], [b * c, b * d]];

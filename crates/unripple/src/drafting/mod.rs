@@ -96,8 +96,9 @@ impl Draft {
         found.as_ref().map_err(Clone::clone)
     }
 
-    /// The responses that drives on the surface are evaluated on by `unripple focus`, and how far their modes go
-    /// ([`Judging::of`]). The first call computes them; later calls return the same ones.
+    /// The responses on which `unripple focus` evaluates drives on the surface, and the frequency up to
+    /// which their modes reach ([`Judging::of`]). The first call computes them; later calls return the same
+    /// ones.
     ///
     /// # Errors
     /// Those of [`model`] and [`Draft::responses`].
@@ -117,9 +118,9 @@ impl Draft {
         found.as_ref().map_err(Clone::clone)
     }
 
-    /// Time reversal at one point (m), evaluated at its focal instant only and on the modes of the band, as a map is: the
-    /// contrast of `unripple focus` there with `--judge-hz` at the top of the band. The window has `window` seconds, or is
-    /// the recommended one.
+    /// Computes a time-reversal focus at one point (m), evaluated only at its focal instant and on the
+    /// modes of the band, as in [`Draft::map`]: it has the contrast of `unripple focus` with `--judge-hz`
+    /// at the top of the band. The window has `window` seconds, or is the recommended one.
     ///
     /// # Errors
     /// Those of [`Draft::responses`], [`focus`](crate::focus::focus()) and [`Field::snapshots`](crate::field::Field::snapshots).
@@ -127,8 +128,8 @@ impl Draft {
         spot::spot(self.responses()?, at, &self.options(window))
     }
 
-    /// Time reversal at one point (m) with all metrics of `unripple focus`, with a window of `window` seconds or the
-    /// recommended one.
+    /// Computes a time-reversal focus at one point (m) with all metrics of `unripple focus`, with a window
+    /// of `window` seconds or the recommended one.
     ///
     /// # Errors
     /// Those of [`Draft::responses`], [`Draft::judged`] and [`Act::run_from`].
@@ -145,7 +146,7 @@ impl Draft {
         Options { window, limit, rms_limit, ..Options::default() }
     }
 
-    /// The window asked for, or the one recommended for the surface, in s.
+    /// The requested window, or the one recommended for the surface, in s.
     fn window(&self, asked: Option<f64>) -> f64 {
         asked.unwrap_or(self.design.window_recommended_s)
     }

@@ -12,10 +12,10 @@ pub struct Spot {
     pub at: Point,
     /// The window T, in seconds.
     pub window: f64,
-    /// Velocity at the target at T, in m/s, with the drive at its limit.
+    /// Velocity at the target at the focal instant T, in m/s, with the drive at its limit.
     pub peak_velocity: f64,
-    /// Contrast: the magnitude of this velocity over the rms velocity outside the focal disc, on the modes of the band;
-    /// `None` where nothing moves outside, or nothing is outside.
+    /// Contrast: the magnitude of `peak_velocity` over the rms velocity outside the focal disc, on the
+    /// modes of the band; `None` where nothing moves outside, or nothing is outside.
     pub contrast: Option<f64>,
 }
 

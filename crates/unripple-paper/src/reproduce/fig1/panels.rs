@@ -1,11 +1,11 @@
-//! Panels of both halves of Fig. 1: strips of fields, curves against time.
+//! Panels of both halves of Fig. 1: fields side by side, and curves against time.
 
 use crate::reproduce::fields::largest;
 use unripple::field::{self, Snapshot};
 use unripple_plot::{Axis, Colours, Ink, Legend, Line, Plot, Shot, Strip, prefixed};
 use unripple_tasks::figures::{Scene, drawn};
 
-/// Fields side by side, colours saturating at `high`.
+/// Panel of velocity fields side by side, whose colours saturate at `high` (m/s).
 pub(super) fn strip(
     scene: &Scene,
     cells: &field::Grid,

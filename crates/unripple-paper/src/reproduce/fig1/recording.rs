@@ -1,4 +1,4 @@
-//! The blow of Fig. 1 at A, as it is recorded at B.
+//! The impulse at A of Fig. 1, as it is recorded at B.
 
 use super::panels::{curve, strip};
 use crate::reproduce::Bed;
@@ -12,16 +12,16 @@ use unripple_tasks::TaskError;
 use unripple_tasks::figures::Scene;
 use unripple_tasks::judge::CELLS;
 
-/// The impulse at A, in N·s. All is linear, so that it sets nothing but the scale of what is recorded.
+/// The impulse at A, in N·s. Since everything is linear, it only sets the scale of the recording.
 pub(super) const IMPULSE: f64 = 1e-6;
 
-/// How long is recorded, in windows T: the first is reversed, the rest shows how the motion dies away.
+/// Length of the recording, in windows T: the first is reversed, the rest shows how the motion decays.
 const RECORDED: f64 = 2.5;
 
 /// Instants of the spreading wave, in seconds after the impulse.
 const SPREADING: [f64; 6] = [0.3e-3, 0.7e-3, 1.2e-3, 2.0e-3, 6.0e-3, 30.0e-3];
 
-/// The field of a blow at A, and its signal at B.
+/// The field of an impulse at A, and the velocity recorded at B.
 pub(super) struct Recording {
     cells: field::Grid,
     shots: Vec<Snapshot>,
@@ -29,7 +29,7 @@ pub(super) struct Recording {
 }
 
 impl Recording {
-    /// Strikes A and records at B.
+    /// Applies an impulse at A, and records the velocity at B.
     pub(super) fn make(bed: &Bed, modal: &ModalResponses, b: Point) -> Result<Self, TaskError> {
         let name = "A";
         let struck = driven_at(modal, Port { name: name.into(), at: bed.target });
@@ -42,12 +42,12 @@ impl Recording {
         Ok(Self { cells: cells(&field)?, shots, at_b })
     }
 
-    /// The first T of it.
+    /// The first window T of the recording.
     pub(super) fn cropped(&self, bed: &Bed) -> &[f64] {
         &self.at_b[..(window_samples(bed.window, bed.rate) + 1).min(self.at_b.len())]
     }
 
-    /// Strip of fields, and velocity at B with the part that is kept.
+    /// Figure of the fields side by side, and of the velocity at B with the window T marked.
     pub(super) fn figure(&self, bed: &Bed, scene: &Scene) -> Figure {
         let high = self.shots.get(2).map_or(0.0, |s| s.velocity.iter().fold(0.0, |m: f32, v| m.max(v.abs())));
         let strip = strip(scene, &self.cells, &self.shots, 0.7 * f64::from(high), |t| {
@@ -66,7 +66,7 @@ impl Recording {
         }
     }
 
-    /// What the figure shows.
+    /// Caption of the figure.
     pub(super) fn caption(&self, bed: &Bed, b: &Port) -> String {
         format!(
             "Fig. 1a. Record and crop. A blow of {:.0} µN·s at A, {}, spreads and reverberates; its velocity is recorded at B, \

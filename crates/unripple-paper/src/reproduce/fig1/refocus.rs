@@ -15,7 +15,7 @@ use unripple_tasks::TaskError;
 use unripple_tasks::figures::Scene;
 use unripple_tasks::judge::CELLS;
 
-/// A point that is not aimed at, where the noise is read.
+/// Point C, which is no target, where the noise is evaluated.
 pub(super) const C: Point = Point::new(0.110, 0.055);
 
 /// Share of the peak at which the colours of the converging wave saturate.
@@ -24,14 +24,15 @@ const SATURATED: f64 = 0.6;
 /// Instants of the converging wave, in seconds from the focus.
 const CONVERGING: [f64; 6] = [-12.0e-3, -0.5e-3, -0.25e-3, 0.0, 0.25e-3, 0.5e-3];
 
-/// How long the pulse is left out of the noise, in seconds on either side of the focus. Twice as long would leave out
+/// Time on either side of the focus that does not count as noise, in seconds. Twice as long would leave out
 /// noise, half as long would count the pulse itself.
 const PULSE: f64 = 2e-3;
 
-/// What the reversed recording does when B plays it.
+/// The reversed recording as the drive of B, and the field that it makes.
 pub(super) struct Refocus {
     drive: Drive,
-    /// Largest difference between the reversed recording and the drive made from B's own responses, of the latter's peak.
+    /// Largest difference between the reversed recording and the drive computed from B's own responses,
+    /// relative to the peak of the latter.
     pub(super) mismatch: f64,
     /// v_A(T) of the paper's equation 2, in m/s.
     pub(super) predicted: f64,
@@ -43,7 +44,8 @@ pub(super) struct Refocus {
 }
 
 impl Refocus {
-    /// Plays it, checks it against the drive made from the responses, and measures what it does.
+    /// Plays the reversed recording, compares it with the drive computed from the responses, and evaluates
+    /// its field.
     pub(super) fn make(
         bed: &Bed,
         modal: &ModalResponses,
@@ -91,7 +93,7 @@ impl Refocus {
         [self.figures.peak_velocity_m_s, rms(&noise), rms(&self.at_c.velocity)]
     }
 
-    /// Strip of fields, force at B, and velocities at A and C.
+    /// Figure of the fields side by side, the force at B, and the velocities at A and C.
     pub(super) fn figure(&self, bed: &Bed, scene: &Scene) -> Figure {
         let high = SATURATED * self.figures.peak_velocity_m_s;
         let from_focus = |t: f64| {
@@ -133,7 +135,7 @@ impl Refocus {
         }
     }
 
-    /// What the figure shows.
+    /// Caption of the figure.
     pub(super) fn caption(&self, bed: &Bed, b: &Port) -> String {
         let [peak, noise_a, noise_c] = self.levels(bed);
         format!(

@@ -1,4 +1,4 @@
-//! A ratio in words.
+//! A ratio as text.
 
 /// A ratio with one decimal, or a dash where there is none.
 pub(super) fn ratio(value: Option<f64>) -> String {

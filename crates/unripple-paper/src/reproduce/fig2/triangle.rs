@@ -1,4 +1,4 @@
-//! Fig. 2b: a triangle.
+//! Fig. 2b of the paper: a triangle.
 
 use super::focus::focused;
 use super::ratio::ratio;
@@ -17,14 +17,14 @@ use unripple_tasks::TaskError;
 use unripple_tasks::figures::{Scene, drawn};
 use unripple_tasks::judge::CELLS;
 
-/// Centre and side of the triangle, in m: large beside a focus, and well inside the film.
+/// Centre and side of the triangle, in m: large compared with a focus, and well inside the film.
 const CENTRE: Point = Point::new(0.075, 0.070);
 const SIDE: f64 = 0.070;
 
-/// Distance between points at which the level along the triangle is read, in metres.
+/// Distance between the points at which the level along the triangle is evaluated, in metres.
 const FINE: f64 = 1e-3;
 
-/// A triangle and how well it came out.
+/// A triangle in focus, with the metrics of its field.
 struct Drawn {
     points: Vec<Point>,
     measured: Measured,
@@ -50,14 +50,14 @@ impl Drawn {
         Ok(Self { points, measured, figures, along, cells: cells(&field)? })
     }
 
-    /// Least and greatest velocity along it, of the mean.
+    /// Least and greatest velocity along the triangle, relative to the mean.
     fn velocities(&self) -> [f64; 2] {
         let ends = |[low, high]: [f64; 2], v: &f64| [low.min(*v), high.max(*v)];
         let range = self.along.iter().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
         range.map(|v| v / self.figures.peak_velocity_m_s)
     }
 
-    /// The same in displacement.
+    /// Least and greatest displacement along the triangle, relative to the mean.
     fn displacements(&self) -> [f64; 2] {
         let [low, high] = self.figures.displacement_range_m.unwrap_or([f64::NAN; 2]);
         let [low, high] = [low, high].map(|u| u / self.figures.peak_displacement_m);
@@ -65,7 +65,7 @@ impl Drawn {
     }
 }
 
-/// Fig. 2b: a triangle from eight impulse responses.
+/// Makes the part of the page on Fig. 2b: a triangle from eight impulse responses.
 pub fn triangle(bed: &Bed) -> Result<Section, TaskError> {
     let drawn = Drawn::make(bed)?;
     let figures = vec![

@@ -9,10 +9,10 @@ use unripple_plot::{
 };
 use unripple_tasks::figures::{Scene, drawn};
 
-/// Part of the traces shown closely, in seconds on either side of a focus.
+/// Part of the traces in the detailed figure, in seconds on either side of a focus.
 const CLOSE: f64 = 5e-3;
 
-/// The film at a focus of both, and displacement at five points.
+/// Figure of the displacement of the film when both are in focus, and of five points against time.
 pub(super) fn overview(bed: &Bed, repeated: &Repeated) -> Figure {
     let mut scene = Scene::new(&bed.surface, &[], 0.0);
     scene.markers.extend(repeated.points.iter().map(|point| named(point.at, point.name)));
@@ -45,7 +45,7 @@ pub(super) fn overview(bed: &Bed, repeated: &Repeated) -> Figure {
     }
 }
 
-/// Around a focus of E alone, one of D alone, and one of both.
+/// Figure of the displacement around a focus of E alone, one of D alone, and one of both.
 pub(super) fn closely(bed: &Bed, repeated: &Repeated) -> Figure {
     let origin = bed.window + repeated.period;
     let panel = |after: f64, title: &str| {
@@ -93,7 +93,7 @@ pub(super) fn closely(bed: &Bed, repeated: &Repeated) -> Figure {
     }
 }
 
-/// What [`overview`] shows.
+/// Caption of [`overview`].
 pub(super) fn overview_caption(bed: &Bed, repeated: &Repeated) -> String {
     let after = repeated.shot.instant - bed.window - repeated.period;
     let rest: Vec<String> = repeated.points.iter().map(|p| format!("{} {}", p.name, place(p.at))).collect();
@@ -107,7 +107,7 @@ pub(super) fn overview_caption(bed: &Bed, repeated: &Repeated) -> String {
     )
 }
 
-/// What [`closely`] shows.
+/// Caption of [`closely`].
 pub(super) fn closely_caption() -> String {
     "Single pulses of Fig. 4, closely: (a) a focus of E alone, (b) one of D alone, (c) one of both. Displacement is largest beside the focal \
      instant, where velocity is largest."

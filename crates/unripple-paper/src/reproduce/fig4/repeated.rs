@@ -1,4 +1,4 @@
-//! Two foci repeated at rates of their own: the drive, and how five points move.
+//! Two foci repeated at different rates: the drive, and the motion of five points.
 
 use crate::reproduce::Bed;
 use crate::reproduce::fields::cells;
@@ -13,7 +13,7 @@ use unripple_tasks::judge::CELLS;
 /// Repetition rates at E and D, in Hz.
 pub(super) const RATES: [f64; 2] = [5.0, 2.0];
 
-/// Where a second focus goes, and three points that are not aimed at.
+/// The second focus, and three points that are no foci.
 const D: Point = Point::new(0.100, 0.048);
 const OTHERS: [(&str, Point); 3] =
     [("A", Point::new(0.034, 0.038)), ("B", Point::new(0.078, 0.124)), ("C", Point::new(0.122, 0.084))];
@@ -21,35 +21,36 @@ const OTHERS: [(&str, Point); 3] =
 /// Amplitude of the pulses in the paper, in metres.
 pub(super) const AMPLITUDE: f64 = 40e-6;
 
-/// Rounds in which the pulses are made equal, and how equal they must be.
+/// Largest number of rounds in which the pulses of the two foci are made equal, and relative difference
+/// below which they count as equal.
 const ROUNDS: usize = 6;
 const EQUAL: f64 = 1e-4;
 
-/// Length of the drive after its first common focus, in seconds. It holds two common periods, and what is drawn
-/// begins late in the first.
+/// Length of the drive after its first common focus, in seconds. It contains two common periods, and the
+/// interval that is drawn begins late in the first.
 pub(super) const LASTS: f64 = 2.35;
 
 /// Start of the interval that is drawn and measured, in seconds after the first common focus.
 pub(super) const STEADY: f64 = 0.9;
 
-/// How long a pulse is left out of the noise, in seconds on either side of its focus. Twice as long would leave out
+/// Time on either side of a focus that does not count as noise, in seconds. Twice as long would leave out
 /// noise, half as long would count the pulse itself.
 const PULSE: f64 = 2e-3;
 
-/// Two foci repeated, and what they do at five points.
+/// The drive of two repeated foci, its field, and the motion of five points.
 pub(super) struct Repeated {
     pub(super) drive: Drive,
-    /// After which everything repeats, in seconds.
+    /// Common period of both foci, in seconds.
     pub(super) period: f64,
     pub(super) cells: field::Grid,
-    /// The film at the extreme of E's pulse when D is in focus too.
+    /// The field at the extreme of E's pulse when D is in focus too.
     pub(super) shot: Snapshot,
     pub(super) points: Vec<Tracked>,
     pub(super) pulses: Vec<Pulse>,
     pub(super) rounds: usize,
 }
 
-/// How one pulse stands out.
+/// Contrast of one pulse of a repeated focus.
 #[derive(Serialize)]
 pub(super) struct Pulse {
     pub(super) name: &'static str,
@@ -57,15 +58,15 @@ pub(super) struct Pulse {
     pub(super) together: bool,
     /// Velocity at the focal instant over the rms outside every focal disc.
     pub(super) contrast: f64,
-    /// Displacement at its extreme over the rms there.
+    /// Displacement at its extreme over the rms outside every focal disc at that instant.
     pub(super) displacement_contrast: f64,
 }
 
-/// A point and how it moves.
+/// A point whose motion is evaluated.
 pub(super) struct Tracked {
     pub(super) name: &'static str,
     pub(super) at: Point,
-    /// Rate at which it is a focus, in Hz; `None` if it is not.
+    /// Repetition rate of the focus at the point, in Hz; `None` if the point is no focus.
     pub(super) hz: Option<f64>,
     velocity: Vec<f64>,
     pub(super) displacement: Vec<f64>,
@@ -94,7 +95,7 @@ impl Tracked {
         foci.into_iter().map(|focus| self.displacement[self.extreme(bed, focus)].abs()).collect()
     }
 
-    /// What is left when its own pulses are left out, while the motion is steady.
+    /// Displacement of the point in the steady state, without its own pulses.
     pub(super) fn noise(&self, bed: &Bed) -> Vec<f64> {
         let (origin, reach) = (window_samples(bed.window, bed.rate), window_samples(PULSE, bed.rate));
         let (from, foci) = (steady(bed), self.foci(origin, origin, bed.rate));
@@ -103,18 +104,18 @@ impl Tracked {
     }
 }
 
-/// First sample of what counts as steady.
+/// First sample of the interval that counts as the steady state.
 pub(super) fn steady(bed: &Bed) -> usize {
     window_samples(bed.window + STEADY, bed.rate)
 }
 
-/// The mean of some values; 0 without any.
+/// The mean of `values`; 0 if there are none.
 pub(super) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 impl Repeated {
-    /// Finds the drive and follows all points.
+    /// Computes the drive, and evaluates the motion of all points.
     pub(super) fn make(bed: &Bed) -> Result<Self, TaskError> {
         let options = Options {
             window: bed.window,
@@ -139,13 +140,13 @@ impl Repeated {
         self.points.iter().filter(|point| point.hz.is_some())
     }
 
-    /// The points that are none.
+    /// The points that are no foci.
     pub(super) fn others(&self) -> impl Iterator<Item = &Tracked> {
         self.points.iter().filter(|point| point.hz.is_none())
     }
 }
 
-/// Where everything is, foci first.
+/// Names and places of all points, with the repetition rates of the foci, which come first.
 fn places(bed: &Bed) -> Vec<(&'static str, Point, Option<f64>)> {
     let foci = [("E", bed.target, Some(RATES[0])), ("D", D, Some(RATES[1]))];
     foci.into_iter().chain(OTHERS.map(|(name, at)| (name, at, None))).collect()
@@ -205,7 +206,8 @@ fn pulses(
     Ok((pulses, shots.swap_remove(asked.len())))
 }
 
-/// The drive whose pulses at both foci have the paper's height on average: gain and level found from the emitted drive.
+/// The drive whose pulses at both foci have the paper's height on average, and the number of rounds; gain
+/// and level are found from the emitted drive.
 fn levelled(bed: &Bed, focuser: &Focuser) -> Result<(Focused, usize), TaskError> {
     let (mut gain, mut round) = (1.0, 0);
     loop {

@@ -1,4 +1,5 @@
-//! The report of a calibration by files: what was made, what is still to be recorded, what is wrong.
+//! The report of a calibration by recordings made elsewhere: what was measured, what is still to be
+//! recorded, what is wrong.
 
 use super::{Bench, Outcome, Wanted, fault::Fault, plan::PLAY};
 use crate::TaskError;
@@ -7,11 +8,12 @@ use crate::calibrate::{Report, report};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Recordings named one by one; of more the number is said.
+/// Largest number of missing recordings that are named one by one; beyond it, only their number is
+/// reported.
 const LISTED: usize = 12;
 
 impl Bench<'_> {
-    /// Makes the report: what was made, what is still to be recorded, and what is wrong.
+    /// Makes the report: what was measured, what is still to be recorded, and what is wrong.
     pub fn answer(
         &self,
         outcome: Outcome,
@@ -63,7 +65,7 @@ impl Bench<'_> {
         Ok(Report::of_tape(report, text, failure.or(drawn.err().map(|error| error.to_string()))))
     }
 
-    /// Recordings in the folder that nobody asked for.
+    /// WAV files in the folder that the plan does not list.
     fn surplus(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.folder).into_iter().flatten().flatten();
         let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
@@ -74,7 +76,7 @@ impl Bench<'_> {
         surplus
     }
 
-    /// What is still to be recorded, and how.
+    /// Text on what is still to be recorded, and how.
     fn wanting(&self, missing: &[&Wanted], told: &Value) -> String {
         if missing.is_empty() {
             return String::new();

@@ -1,33 +1,36 @@
-//! The recordings that are asked for: files by point and repeat, old ones kept when points are added.
+//! The recordings that a plan requests: files by point and repeat; files of earlier points keep their names
+//! when points are added.
 
 use crate::calibrate::points::Places;
 use serde_json::Value;
 use unripple::core::Point;
 
-/// Places closer than this, in metres, are the same.
+/// Distance in metres below which two places count as the same.
 const SAME: f64 = 1e-9;
 
-/// A recording that is asked for.
+/// A recording that the plan requests.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wanted {
-    /// Number of the point; that after the last stands for the actuators.
+    /// Number of the point, from 0; the number after the last point stands for the recording of the
+    /// actuators.
     pub number: usize,
-    /// Number of the repeat there.
+    /// Number of the repeat at the point, from 0.
     pub repeat: usize,
     /// Name of the recording's file.
     pub file: String,
-    /// Where the probe is to be, if that matters.
+    /// Place of the probe; `None` for the recording of the actuators, where the probe may be anywhere.
     pub at: Option<Point>,
 }
 
-/// Recordings that a plan asks for: the place of the probe at each point, and the beginning of its files' names.
+/// Points of the recordings that a plan requests: the place of the probe at each, and the beginning of its
+/// files' names.
 #[derive(Clone, Debug, Default)]
 pub struct Asked {
     points: Vec<(Point, String)>,
 }
 
 impl Asked {
-    /// The recordings that a plan asks for.
+    /// Reads the points of the requested recordings from a plan.
     pub fn of(plan: &Value) -> Self {
         let recordings = plan["recordings"].as_array().into_iter().flatten();
         let first = recordings.filter(|one| one["repeat"] == 1);
@@ -39,7 +42,7 @@ impl Asked {
         Self { points: first.filter_map(point).collect() }
     }
 
-    /// Points of this plan that another lacks, a line each.
+    /// Points of this plan that `other` lacks, as one line of text each.
     pub fn lost(&self, other: &Self) -> Vec<String> {
         let has = |(at, stem): &&(Point, String)| {
             other.points.iter().any(|(there, name)| there.distance(*at) < SAME && name == stem)
@@ -53,8 +56,8 @@ impl Asked {
         .collect()
     }
 
-    /// All recordings of a calibration, in order; those of the actuators come first, if an input records the actuators. Points of this plan
-    /// keep their files; files of new points get the next numbers.
+    /// All recordings of a calibration, in order; those of the actuators come first, if an input records
+    /// the actuators. Points of this plan keep their files; files of new points get the next free numbers.
     pub fn wanted(&self, places: &Places, hears_itself: bool, repeats: usize) -> Vec<Wanted> {
         let last = |repeat: usize| if repeat == 0 { String::new() } else { format!("-{}", repeat + 1) };
         let own = (0..repeats).filter(|_| hears_itself).map(|repeat| Wanted {

@@ -1,20 +1,20 @@
-//! What is wrong with a recording, and what to do.
+//! Why a recording cannot be used, and what to do about it.
 
 use serde_json::{Value, json};
 
-/// A recording that cannot be used, and what to do.
+/// Why a recording cannot be used, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Name of the recording's file, or of all files that are concerned.
+    /// Name of the recording's file, or names of all files concerned.
     pub file: String,
-    /// What is wrong with it.
+    /// What is wrong with the recording.
     pub why: String,
-    /// What to do about it.
+    /// What to do to get a recording that can be used.
     pub mend: String,
 }
 
 impl Fault {
-    /// A fault of a file: what is wrong, and what to do.
+    /// A fault of a recording's file: why it cannot be used, and what to do.
     pub fn new(file: &str, why: impl Into<String>, mend: &str) -> Self {
         Self { file: file.into(), why: why.into(), mend: mend.into() }
     }

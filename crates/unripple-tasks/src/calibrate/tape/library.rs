@@ -1,4 +1,5 @@
-//! The library that recordings go into: a new one, the one there, or that one with more points.
+//! The library that recordings are evaluated into: a new one, the existing one, or the existing one with
+//! more points.
 
 use super::Bench;
 use crate::TaskError;
@@ -7,11 +8,11 @@ use std::collections::BTreeMap;
 use unripple::core::Point;
 use unripple_store::{Library, LibraryPlan};
 
-/// Places closer than this, in metres, are the same.
+/// Distance in metres below which two places count as the same.
 const SAME: f64 = 1e-9;
 
 impl Bench<'_> {
-    /// The library of this calibration, with all its points.
+    /// Creates or opens the library of this calibration, and adds points that the plan has gained.
     pub fn library(&self) -> Result<Library, TaskError> {
         let (folder, plan) = (&self.campaign.ask.output, self.campaign.plan());
         if Library::is_at(folder) {
@@ -25,7 +26,8 @@ impl Bench<'_> {
     }
 }
 
-/// The old number of each point, if a plan is another one with points added and nothing else.
+/// The number of each point in the existing plan `there`, if the new plan differs from it only by added
+/// points.
 fn grown(campaign: &Campaign<'_>, plan: &LibraryPlan, there: &LibraryPlan) -> Option<Vec<Option<usize>>> {
     let old: usize = there.provenance.get(PROBED)?.parse().ok()?;
     let new = campaign.places.probed;

@@ -1,4 +1,5 @@
-//! Fingerprints of recordings: one that changed is measured again, and one that is a copy of another is found.
+//! Fingerprints of recordings, by which changed recordings are evaluated again and copies of others are
+//! found.
 
 use super::asked::Wanted;
 use super::fault::Fault;
@@ -9,32 +10,34 @@ use std::path::Path;
 use std::time::UNIX_EPOCH;
 use unripple_store::{Library, read_wav};
 
-/// The key of the library's log under which marks are kept.
+/// Key of the library's log entry for the fingerprints of recordings.
 const TAKES: &str = "takes";
 
-/// The key of the library's log under which it is noted that recordings were resampled.
+/// Key of the library's log entry for the note that recordings were resampled.
 const RATE: &str = "rate";
 
 /// Properties by which a recording is recognised: size, time, sample rate and a hash of its samples.
 #[derive(Clone, Debug, PartialEq)]
 struct Mark {
     bytes: u64,
-    /// When it was last written, in ns after 1970: a file of the same size and time is not read again.
+    /// When the file was last written, in ns after 1970: a file with the same size and time is not read
+    /// again.
     written: u64,
-    /// Samples per second; 0 in logs of before.
+    /// Sample rate, in Hz; 0 in logs of earlier versions.
     rate: f64,
-    /// Of its samples, whatever kind of file holds them.
+    /// Hash of the samples, independent of the file format.
     hash: String,
 }
 
-/// Marks of all recordings that are there and can be read, by file.
+/// Fingerprints of all recordings that exist and can be read, by file name.
 #[derive(Clone, Debug, Default)]
 pub struct Marks {
     all: BTreeMap<String, Mark>,
 }
 
 impl Marks {
-    /// Marks of the files of a folder; those that the library knows by size and time are not read.
+    /// Computes the fingerprints of the `wanted` files in a folder; files whose size and time are in the
+    /// library's log are not read again.
     pub fn of<'a>(
         folder: &Path,
         wanted: impl Iterator<Item = &'a Wanted>,
@@ -57,12 +60,13 @@ impl Marks {
         Self { all }
     }
 
-    /// The hash of a file.
+    /// Hash of a recording's samples, by the name of its file.
     pub fn hash(&self, file: &str) -> Option<&str> {
         self.all.get(file).map(|mark| mark.hash.as_str())
     }
 
-    /// Recordings that have the same samples as another. Those in `trusted` were measured before: their copies alone are at fault.
+    /// Faults of recordings with the same samples as another. If one of them is in `trusted` (measured
+    /// before), only the others are at fault.
     pub fn copies(&self, trusted: &[String]) -> Vec<Fault> {
         let mut by_hash: BTreeMap<&str, Vec<&String>> = BTreeMap::new();
         self.all.iter().for_each(|(file, mark)| by_hash.entry(&mark.hash).or_default().push(file));
@@ -81,7 +85,7 @@ impl Marks {
         faults
     }
 
-    /// Which recordings are at another rate, in words, if any are.
+    /// Sentence on recordings whose sample rate is not `rate` (Hz); `None` if there are none.
     fn resampled(&self, rate: f64) -> Option<String> {
         let other: Vec<(&String, f64)> = self
             .all
@@ -99,7 +103,8 @@ impl Marks {
         }
     }
 
-    /// Keeps all marks in a library's log, beside those of files that are gone, and which recordings had to be resampled.
+    /// Stores all fingerprints in a library's log, beside those of files that no longer exist, and a note
+    /// on which recordings had to be resampled.
     pub fn keep(&self, library: &mut Library) -> Result<(), TaskError> {
         let said = self.resampled(library.plan().conditions.rate);
         library.log(RATE, said.map_or(Value::Null, |said| json!({ "said": said })))?;
@@ -108,7 +113,7 @@ impl Marks {
         Ok(library.log(TAKES, Value::Object(told))?)
     }
 
-    /// Hashes of some files, for a point's log.
+    /// Hashes of some files as JSON, by file name, for a point's log.
     pub fn told<'a>(&self, files: impl Iterator<Item = &'a Wanted>) -> Value {
         let known = files.filter_map(|one| Some((one.file.clone(), json!(self.hash(&one.file)?))));
         Value::Object(known.collect::<Map<_, _>>())
@@ -128,7 +133,8 @@ impl Mark {
     }
 }
 
-/// The rate, and FNV-1a, 64 bits, of all samples, channel after channel; `None` of what cannot be read.
+/// The sample rate, and a 64-bit FNV-1a hash of all samples, channel after channel; `None` for a file that
+/// cannot be read.
 fn hash(folder: &Path, file: &str) -> Option<(f64, String)> {
     const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
     const PRIME: u64 = 0x0100_0000_01b3;

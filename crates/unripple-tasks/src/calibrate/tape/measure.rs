@@ -1,4 +1,4 @@
-//! The library made of the recordings that are there.
+//! Computes the library from the recordings that exist.
 
 use super::asked::Wanted;
 use super::fault::Fault;
@@ -21,7 +21,7 @@ use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Session, Sink
 use unripple_store::{Doubt, Library, PointState};
 
 impl Bench<'_> {
-    /// Fills the library with all that can be made of the recordings.
+    /// Fills the library with all responses that can be computed from the recordings.
     pub fn measure(&mut self, first: &Session) -> Result<Outcome, TaskError> {
         let start = Instant::now();
         let there = Some(&self.campaign.ask.output).filter(|folder| Library::is_at(folder));
@@ -68,7 +68,8 @@ impl Bench<'_> {
         Ok(Outcome { report: Some(report), library: Some(shelf.library), faults, notes: tried.notes })
     }
 
-    /// Files of points that are measured, as they were then: copies of them are at fault, not they.
+    /// Files from which stored points were measured and which are unchanged: where another file is a copy,
+    /// that one is at fault.
     fn trusted(&self, library: Option<&Library>, marks: &Marks) -> Vec<String> {
         let Some(library) = library else { return Vec::new() };
         let logged = (0..library.points().len()).filter_map(|point| library.logged_point(point));
@@ -95,7 +96,8 @@ impl Bench<'_> {
         numbers.into_iter().filter(|number| *number != last).map(|number| (number, point(number))).collect()
     }
 
-    /// The data from which the actuators' own points are computed; `None` if there is no recording of the actuators.
+    /// The data from which the points at the actuators are computed; `None` if there is no recording of the
+    /// actuators.
     fn made_own(&self, there: &[Wanted], marks: &Marks) -> Option<Value> {
         let last = self.campaign.places.points.len();
         let own: Vec<&Wanted> = there.iter().filter(|one| one.number == last).collect();
@@ -108,7 +110,8 @@ impl Bench<'_> {
         })
     }
 
-    /// Makes points missing whose recordings are not those that they were made of; all, if those of the actuators are not.
+    /// Marks points as missing if their recordings, scales or options changed since they were computed; all
+    /// points, if those of the actuators' recording did.
     fn fall_back(
         &self,
         library: &mut Library,
@@ -134,7 +137,7 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Recordings of points that can be read; of points that are measured, all are taken to be.
+    /// Recordings of points that can be read; those of points that are already measured are not read again.
     fn sound(&mut self, present: &[Wanted], library: &Library, faults: &mut Vec<Fault>) -> Vec<Wanted> {
         let known: Vec<String> = faults.iter().map(|fault| fault.file.clone()).collect();
         let mut sound = Vec::new();
@@ -148,7 +151,8 @@ impl Bench<'_> {
         sound
     }
 
-    /// Refuses wires that are not as they should be, or says so in the library.
+    /// Returns an error for faults of the wiring, or records them as doubts in the library if the request
+    /// accepts them.
     fn wires(&self, library: &mut Library, tried: &Tried) -> Result<(), TaskError> {
         let refused = !tried.faults.is_empty() && !self.campaign.ask.any_wiring;
         wires::tell(&self.campaign, &tried.notes, if refused { &[] } else { &tried.faults });
@@ -181,12 +185,12 @@ struct Work<'b, 'a> {
     rig: TapeRig,
     /// The data from which each point is computed, by its number.
     made: BTreeMap<usize, Value>,
-    /// And the actuators' own points.
+    /// The data from which the points at the actuators are computed.
     made_own: Option<Value>,
     /// Recordings that are used.
     all: Vec<Wanted>,
     faults: Vec<Fault>,
-    /// Responses at the sensors, which points' recordings are compared with.
+    /// Responses at the sensors, with which the recordings of points are compared.
     known: Option<Vec<Channel>>,
     start: Instant,
 }
@@ -233,7 +237,8 @@ impl Work<'_, '_> {
         Ok(Session::new(self.bench.campaign.surface, takes.layout(), takes.wires.clone(), settings)?)
     }
 
-    /// A session that holds takes against the sensors' in that of the actuators.
+    /// A session that compares the sensors' signals in each recording with those in the recording of the
+    /// actuators.
     fn following(&self, settings: &MeasureOptions) -> Result<Session, TaskError> {
         let mut session = self.session(settings)?;
         if let Some(known) = &self.known {
@@ -242,12 +247,14 @@ impl Work<'_, '_> {
         Ok(session)
     }
 
-    /// Recordings of a point that are used; of the actuators, by the number after the last.
+    /// Number of recordings of a point that are used; the number after the last point stands for the
+    /// actuators.
     fn count(&self, number: usize) -> usize {
         self.all.iter().filter(|one| one.number == number).count()
     }
 
-    /// Responses of actuators at each other, kept as the library's last points unless they are bad.
+    /// Measures the responses between actuators, and stores them as the library's last points unless they
+    /// are bad.
     fn keep_own(
         &mut self,
         settings: &MeasureOptions,
@@ -289,7 +296,8 @@ impl Work<'_, '_> {
         shelf.reciprocity(&sensors)
     }
 
-    /// Points, those with fewer recordings than repeats by as many as there are.
+    /// Measures and stores the points that have recordings; a point with fewer recordings than requested is
+    /// averaged over those that exist.
     fn keep_points(&mut self, settings: &MeasureOptions, shelf: &mut Shelf) -> Result<(), TaskError> {
         let bench = self.bench;
         let known = &bench.campaign;
@@ -333,7 +341,7 @@ impl Work<'_, '_> {
         Ok(())
     }
 
-    /// Names the recording of a point that is at fault: the one that is bad by itself, or all.
+    /// Adds a fault that names the recording of a point that is bad by itself, or else all its recordings.
     fn name(&mut self, settings: &MeasureOptions, number: usize, why: &str) -> Result<(), TaskError> {
         let files: Vec<String> =
             self.all.iter().filter(|one| one.number == number).map(|one| one.file.clone()).collect();

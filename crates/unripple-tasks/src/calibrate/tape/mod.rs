@@ -27,25 +27,27 @@ use unripple::core::{Layout, PROBE, Surface};
 use unripple_calibrate::measure::{MeasureOptions, Session, Wires};
 use unripple_store::Library;
 
-/// Samples of a block: nothing waits for it, so that it only sets the silence at the beginning.
+/// Samples of a block. Nothing waits for a block here, so that it only determines the silence at the
+/// beginning.
 const BLOCK: usize = 256;
 
-/// Largest number of recordings, all repeats of all points: nobody makes more by hand. With twice this value, a plan takes 20 MB.
+/// Largest number of recordings, all repeats of all points together: nobody makes more by hand. With twice
+/// this value, a plan takes 20 MB.
 const MOST_RECORDINGS: usize = 100_000;
 
 pub(super) use plan::drive as sweeps;
 
-/// The calibration, its recordings, and what is known of them.
+/// A calibration by recordings, with the recordings that it needs.
 struct Bench<'a> {
     campaign: Campaign<'a>,
     wanted: Vec<Wanted>,
     takes: Takes,
     folder: &'a Path,
-    /// Points that have a recording which can be read, once that is known.
+    /// Numbers of the points that have a readable recording, once the recordings have been read.
     good: Vec<usize>,
 }
 
-/// Result of reading the recordings that are there.
+/// Result of evaluating the recordings that exist.
 #[derive(Default)]
 struct Outcome {
     report: Option<report::Report>,
@@ -54,7 +56,8 @@ struct Outcome {
     notes: Vec<String>,
 }
 
-/// Writes what is to be played, or makes what there is of the library from the recordings that are there.
+/// Writes the plan and the file to play, and computes as much of the library as the existing recordings
+/// allow.
 pub(super) fn run(mut campaign: Campaign<'_>) -> Result<Report, TaskError> {
     let (ask, surface) = (campaign.ask, campaign.surface);
     let Some(folder) = ask.device.tape.as_deref() else {
@@ -104,7 +107,7 @@ pub(super) fn run(mut campaign: Campaign<'_>) -> Result<Report, TaskError> {
     bench.answer(outcome, &told, drawn)
 }
 
-/// Refuses more recordings than anybody makes.
+/// Returns an error for more recordings than anybody makes.
 fn few(points: usize, repeats: usize) -> Result<(), TaskError> {
     let found = points.saturating_mul(repeats);
     if found <= MOST_RECORDINGS {
@@ -115,7 +118,7 @@ fn few(points: usize, repeats: usize) -> Result<(), TaskError> {
     )))
 }
 
-/// The channels that recordings are to have.
+/// The channels, sample rate and full scale that recordings are to have.
 fn layout(ask: &Ask, surface: &Surface, full_scale: f64) -> Result<Layout, TaskError> {
     let names: Vec<String> = surface.actuators.iter().map(|actuator| actuator.name.clone()).collect();
     let inputs = match &ask.device.tape_inputs[..] {
@@ -143,17 +146,18 @@ impl Bench<'_> {
         self.folder.join(&wanted.file).is_file()
     }
 
-    /// Recordings that are there.
+    /// The planned recordings whose files exist.
     fn present(&self) -> Vec<Wanted> {
         self.wanted.iter().filter(|one| self.there(one)).cloned().collect()
     }
 
-    /// Paths of the recordings that are there, and whether each is of the actuators.
+    /// Paths of the recordings that exist, and whether each is the recording of the actuators.
     fn recordings(&self) -> Vec<(PathBuf, bool)> {
         self.present().iter().map(|one| (self.folder.join(&one.file), one.at.is_none())).collect()
     }
 
-    /// Whether evaluation can begin: some recording is there, and that of the actuators is, if the plan has one.
+    /// Whether evaluation can begin: some recording exists, and so does that of the actuators, if the plan
+    /// has one.
     fn can_begin(&self) -> bool {
         let present = self.present();
         let own = self.wanted.iter().any(|one| one.at.is_none());

@@ -14,19 +14,20 @@ use unripple_store::{write_file, write_wav};
 /// Name of the file that is to be played.
 pub const PLAY: &str = "play.wav";
 
-/// Name of the file that says what was planned.
+/// Name of the file that contains the plan.
 const PLAN: &str = "plan.json";
 
 /// Version of the plan's format; another one is refused.
 const FORMAT: u32 = 1;
 
-/// Numbers that differ by less than this share are the same, written by another version.
+/// Relative difference below which two numbers in plans count as the same; versions of the program may
+/// round differently.
 const SAME: f64 = 1e-9;
 
 /// Keys that a plan of an earlier version may lack.
 const NEW: [&str; 2] = ["ringing_s", "sweep_from_hz"];
 
-/// The plan that a folder has, if it has one.
+/// Reads the plan in a folder; `None` if the folder has none.
 pub fn found(folder: &Path) -> Result<Option<Value>, TaskError> {
     let file = folder.join(PLAN);
     let wrong = |expected: &str, found: String| {
@@ -45,7 +46,8 @@ pub fn found(folder: &Path) -> Result<Option<Value>, TaskError> {
     }
 }
 
-/// Takes over the settings of a plan, where the request does not give them, so that recordings are read as they were made.
+/// Takes over settings from an existing plan where the request does not specify them, so that recordings
+/// are evaluated with the settings that they were made with.
 pub fn apply(plan: &Value, ask: &Ask, settings: &mut MeasureOptions) {
     let seconds = |key: &str| plan[key].as_f64().filter(|seconds| *seconds > 0.0 && *seconds < 60.0);
     let usual = MeasureOptions::default();
@@ -60,7 +62,7 @@ pub fn apply(plan: &Value, ask: &Ask, settings: &mut MeasureOptions) {
     }
 }
 
-/// A rig whose inputs are silent, and that keeps what is driven in one recording.
+/// A rig whose inputs are silent, and which stores the drive of one recording.
 struct Recorder(Tape);
 
 impl Rig for Recorder {
@@ -80,7 +82,7 @@ impl Rig for Recorder {
     }
 }
 
-/// The drive that a session plays for one recording, `[actuator][sample]`, 1 for full scale.
+/// The drive that a session plays for one recording, in units of full scale, with one channel per actuator.
 pub fn drive(session: &Session, layout: &Layout, at: Point) -> Result<Drive, TaskError> {
     let mut recorder = Recorder(Tape::recorder(layout.clone()).map_err(TaskError::input)?);
     let listen = if session.wires().probe.is_some() { Listen::Probe } else { Listen::Sensors };
@@ -125,8 +127,8 @@ pub fn told(
     })
 }
 
-/// Writes the plan and the file to play into the folder, unless they are there. An earlier plan with fewer points is extended; one that
-/// differs otherwise is refused, with all differences.
+/// Writes the plan and the file to play into the folder, unless they exist. An earlier plan with fewer
+/// points is extended; one that differs otherwise is refused with a list of all differences.
 pub fn put(folder: &Path, plan: &Value, drive: &Drive, before: Option<&Value>) -> Result<(), TaskError> {
     let failed = |error: std::io::Error| TaskError::Work(format!("{}: {error}", folder.display()));
     let (file, play) = (folder.join(PLAN), folder.join(PLAY));

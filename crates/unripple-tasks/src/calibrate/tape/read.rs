@@ -7,33 +7,35 @@ use unripple::dsp::resample;
 use unripple_calibrate::signals::{Band, clipped};
 use unripple_store::{Wav, read_wav};
 
-/// Samples at the largest magnitude, side by side, above which a channel is taken to be clipped.
+/// Number of samples in runs at the largest magnitude up to which a channel does not count as clipped.
 const FLAT: usize = 20;
 
-/// A recording at another rate has to hold this multiple of the band's top: twice, and the resampler's transition.
+/// Least sample rate of a recording that is to be resampled, as a multiple of the highest swept frequency:
+/// twice, and the resampler's transition.
 const ROOM: f64 = 2.2;
 
-/// How recordings are read.
+/// How recordings are read: their channels, sample rate and band.
 #[derive(Clone, Debug)]
 pub struct Reader {
-    /// The channels that recordings have, and their rate.
+    /// The channels that recordings must have, and the sample rate of the surface.
     pub layout: Layout,
     /// The band of frequencies that the sweeps cover.
     pub band: Band,
-    /// Whether recordings of another rate are brought to that of the surface.
+    /// Whether recordings of another sample rate are resampled to that of the surface.
     pub resample: bool,
 }
 
-/// Channels that must have a signal.
+/// Channels of a recording that must have a signal, by index.
 pub struct Needed<'a> {
-    /// Channels that must have a signal.
+    /// Channels all of which must have a signal.
     pub all: &'a [usize],
-    /// Channels of which one must have a signal; others may be dead.
+    /// Channels at least one of which must have a signal, such as sensors, of which some may be dead.
     pub any: &'a [usize],
 }
 
 impl Reader {
-    /// The channels of a file, checked.
+    /// Reads the channels of a recording, and checks them for silence and clipping; resamples them if
+    /// needed and allowed.
     pub fn read(&self, folder: &Path, file: &str, needed: &Needed<'_>) -> Result<Vec<Vec<f64>>, Fault> {
         let wav = self.wav(folder, file)?;
         let silent = |line: &[f64]| {
@@ -57,7 +59,7 @@ impl Reader {
         self.at_rate(wav, file)
     }
 
-    /// Reads a file as it is, if it has all channels.
+    /// Reads a recording without checks or resampling, except that it must have all channels.
     pub fn wav(&self, folder: &Path, file: &str) -> Result<Wav, Fault> {
         let wav = read_wav(folder.join(file)).map_err(|error| {
             let why = error.to_string();
@@ -94,7 +96,7 @@ impl Reader {
         Ok(wav.channels.iter().map(|line| resample(line, wav.rate / rate)).collect())
     }
 
-    /// A channel in words; channels count from 1.
+    /// Number (from 1) and name of an input channel, for messages.
     pub fn named(&self, input: usize) -> String {
         format!("channel {} (`{}`)", input + 1, self.layout.inputs[input])
     }

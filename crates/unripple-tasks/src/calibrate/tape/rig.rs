@@ -15,13 +15,13 @@ use unripple_devices::{DevicesError, Tape};
 /// Rig that plays back the recordings of each point.
 pub struct TapeRig {
     takes: Takes,
-    /// The recordings that are there.
+    /// The recordings that exist.
     there: Vec<Wanted>,
     tape: Tape,
 }
 
 impl TapeRig {
-    /// Recordings that are there, to be played back in order of point and repeat.
+    /// A rig that plays back the existing recordings `there`, the repeats of a point in turn.
     pub fn new(takes: Takes, there: Vec<Wanted>) -> Result<Self, DevicesError> {
         let tape = Tape::recorder(takes.layout().clone())?;
         Ok(Self { takes, there, tape })
@@ -33,7 +33,7 @@ impl Rig for TapeRig {
         &mut self.tape
     }
 
-    /// The recordings of a point come round, one for each attempt.
+    /// Each attempt plays the next recording of the point; after the last, the first follows.
     fn ready(&mut self, number: usize, _at: Point, attempt: u64) -> Result<(), CalibrateError> {
         let failed = |why: String| CalibrateError::Rig { number, why };
         let own: Vec<&Wanted> = self.there.iter().filter(|one| one.number == number).collect();
@@ -49,26 +49,29 @@ impl Rig for TapeRig {
     }
 }
 
-/// Points of which the log is written at once: it is one file, and writing it for each point takes longer the more
-/// there are.
+/// Number of points whose log entries are written at once: the log is one file, and writing it for each
+/// point takes longer the more there are.
 const AT_ONCE: usize = 32;
 
-/// Stores points, and in their log what they were computed from: recordings, scales and options.
+/// Stores points in a library, and records in its log what each was computed from: recordings, scales and
+/// options.
 pub struct TapeShelf<'a> {
     shelf: &'a mut Shelf,
-    /// What each point is computed from; the keys are the points' numbers.
+    /// What each point is computed from, by the points' numbers.
     made: BTreeMap<usize, Value>,
-    /// What is still to be logged.
+    /// Log entries that are still to be written, by the points' numbers.
     pending: BTreeMap<usize, Value>,
 }
 
 impl<'a> TapeShelf<'a> {
-    /// Stores points in a library; `made` says what each point is computed from, with the points' numbers as keys.
+    /// Storage for points in the library of `shelf`; `made` contains, by the points' numbers, what each
+    /// point is computed from.
     pub fn new(shelf: &'a mut Shelf, made: BTreeMap<usize, Value>) -> Self {
         Self { shelf, made, pending: BTreeMap::new() }
     }
 
-    /// Stores the responses of the point of this number, and what they were computed from.
+    /// Stores the responses of point `number`, and notes what they were computed from for the log; `fault`
+    /// marks them as bad.
     pub fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), TaskError> {
         self.shelf.keep(number, channel, fault)?;
         // Responses first: a point whose log was not written is measured again.
@@ -77,14 +80,14 @@ impl<'a> TapeShelf<'a> {
         if self.pending.len() < AT_ONCE { Ok(()) } else { self.log() }
     }
 
-    /// Writes to the log what points were computed from.
+    /// Writes the pending notes on what points were computed from to the library's log.
     pub fn log(&mut self) -> Result<(), TaskError> {
         let pending = std::mem::take(&mut self.pending);
         if pending.is_empty() { Ok(()) } else { Ok(self.shelf.library.log_points(pending)?) }
     }
 }
 
-/// The fault of a recording from which bad responses came.
+/// The fault of a recording from which bad responses were computed.
 pub fn bad(file: &str, why: &str) -> Fault {
     let mend = "look at the probe and the actuators, and record again (or keep it as bad with `any_wiring`)";
     Fault::new(file, why, mend)

@@ -1,4 +1,4 @@
-//! Recordings made elsewhere: checked, and aligned to the start of playing.
+//! Recordings made elsewhere: checks them, and aligns them to the start of playback.
 
 use super::asked::Wanted;
 use super::fault::Fault;
@@ -10,58 +10,61 @@ use unripple::dsp::median;
 use unripple_calibrate::measure::Wires;
 use unripple_calibrate::signals::{Delay, shift};
 
-/// Seconds by which a recording may end before what is played, of which the last quarter of a second is silence.
+/// Seconds by which a recording may end before the played file, whose last quarter of a second is silence.
 const SHORT: f64 = 0.2;
 
-/// Samples that are left before the first sound of the sweeps. 5 ms at 48 kHz, as many as a response's lead.
+/// Number of samples before the first sound of the sweeps: 5 ms at 48 kHz, as many as a response's lead.
 const MARGIN: f64 = 240.0;
 
-/// Samples that a recording may begin after what is played, of which the first few blocks are silence.
+/// Number of samples by which a recording may begin after the played file, whose first few blocks are
+/// silence.
 const AFTER: f64 = 1024.0;
 
-/// Least likeness of the sensors' signals in two recordings of the same sweeps: clocks that run apart and a sheet
-/// that warms leave as much.
+/// Least correlation of the sensors' signals in two recordings of the same sweeps: differing clocks and a
+/// sheet that warms leave as much.
 const LEAST: f64 = 0.3;
 
-/// Below this likeness it is asked whether channels changed places; above it in another channel they did.
+/// Correlation below which channels are checked for having been swapped, and above which another channel
+/// counts as the right one.
 const LIKE: f64 = 0.7;
 
-/// Pieces in which samples that were lost are looked for.
+/// Number of pieces of the drive that are searched for lost samples.
 const PIECES: usize = 8;
 
-/// Channels that a recording's delay is found from. Three can outvote one that is wrong; more take longer.
+/// Number of channels from which a recording's delay is found. Three can outvote one that is wrong; more
+/// take longer.
 const TELLING: usize = 3;
 
-/// Seconds by which actuators may differ on where playing began: less than sweeps are apart.
+/// Seconds by which the start of playback may differ between actuators: less than the spacing of sweeps.
 const AGREE: f64 = 0.05;
 
-/// Largest number of actuators from whose recordings of themselves the start of playing is found.
+/// Largest number of actuators whose own sensors are used to find the start of playback.
 const ASKED: usize = 16;
 
-/// Reads recordings, and aligns each to the start of playing.
+/// Reads recordings, and aligns each to the start of playback.
 #[derive(Clone, Debug)]
 pub struct Takes {
     folder: PathBuf,
-    /// How files are read.
+    /// How the files of recordings are read and checked.
     pub reader: Reader,
-    /// Which channel is which.
+    /// Which channels belong to which actuators, sensors, probe and reference.
     pub wires: Wires,
     /// The drive that is played.
     pub drive: Drive,
-    /// Channels from which delays are found, with their signals for a drive that begins at time 0, but for a latency common to all
-    /// recordings.
+    /// Channels from which delays are found, each with its signal for a drive that begins at time 0, apart
+    /// from a latency common to all recordings.
     known: Vec<(usize, Vec<f64>)>,
-    /// Samples by which recordings have to be moved, by their file.
+    /// Number of samples by which each recording begins before the drive, by its file name.
     late: BTreeMap<String, f64>,
 }
 
 impl Takes {
-    /// Recordings in a folder, of this drive.
+    /// Reads recordings from `folder` that were made while `drive` was played.
     pub fn new(folder: PathBuf, reader: Reader, wires: Wires, drive: Drive) -> Self {
         Self { folder, reader, wires, drive, known: Vec::new(), late: BTreeMap::new() }
     }
 
-    /// The channels that recordings have.
+    /// The channels, sample rate and full scale of recordings.
     pub fn layout(&self) -> &Layout {
         &self.reader.layout
     }
@@ -70,13 +73,15 @@ impl Takes {
         self.reader.layout.rate
     }
 
-    /// Inputs that record the drive itself wherever the probe is: the reference, or the actuators' sensors.
+    /// Inputs from which a recording's delay can be found wherever the probe is: the reference, or else the
+    /// actuators' sensors.
     pub fn telling(&self) -> Vec<usize> {
         self.wires.reference.map_or_else(|| self.wires.sensors.clone(), |reference| vec![reference])
     }
 
-    /// Learns from the recording of the actuators how to align all others. The signals of its loudest channels that record the drive are
-    /// kept, shifted by whole samples so that playing begins a little after their first sample.
+    /// Learns from the recording of the actuators how to align all others: it stores the signals of the
+    /// loudest channels that record the drive, shifted by whole samples so that playback begins a little
+    /// after their first sample.
     pub fn learn(&mut self, wanted: &Wanted) -> Result<(), Fault> {
         let lines = self.lines(wanted)?;
         let telling = loudest(&lines, self.telling());
@@ -87,7 +92,7 @@ impl Takes {
         Ok(())
     }
 
-    /// Sample at which playing began, by the recording of the drive.
+    /// Sample at which playback began, from the channels that record the drive.
     fn began(&self, lines: &[Vec<f64>]) -> Option<f64> {
         let anchor = self.heard_themselves(lines);
         match self.wires.reference {
@@ -96,7 +101,8 @@ impl Takes {
         }
     }
 
-    /// The sample at which playing began, from the signal of each actuator at its own sensor: all but dead actuators agree.
+    /// Sample at which playback began, from the signal of each actuator at its own sensor: all but dead
+    /// actuators agree.
     fn heard_themselves(&self, lines: &[Vec<f64>]) -> Option<f64> {
         let own = |(actuator, input): (usize, &usize)| {
             let sent = self.drive.channels().get(*self.wires.drives.get(actuator)?)?;
@@ -110,8 +116,8 @@ impl Takes {
         all.iter().map(|at| near(*at)).max_by_key(Vec::len).and_then(median)
     }
 
-    /// The sample at which playing began, from the reference channel. It records all outputs or one; since all play the same sweep, only
-    /// `anchor` tells which.
+    /// Sample at which playback began, from the reference channel. That records all outputs or one; since
+    /// all play the same sweep, only `anchor` shows which.
     fn of_reference(&self, line: &[f64], anchor: Option<f64>) -> Option<f64> {
         let whole = self.like(line, &sum(self.drive.channels()))?;
         let one = |sent: &Vec<f64>| self.like(line, sent).filter(|like| like.correlation > whole.correlation);
@@ -127,7 +133,8 @@ impl Takes {
         nearest.or(Some(whole.samples))
     }
 
-    /// Reads a recording as a device would have made it, `[input][sample]`: aligned to the start of the drive, and as long as the drive.
+    /// Reads a recording as a device would have made it, `[input][sample]`: aligned to the start of the
+    /// drive, and cut to the length of the drive.
     pub fn take(&mut self, wanted: &Wanted) -> Result<Vec<Vec<f32>>, Fault> {
         let lines = self.lines(wanted)?;
         let late = match self.late.get(&wanted.file) {
@@ -157,7 +164,8 @@ impl Takes {
         Ok(lines.collect())
     }
 
-    /// Samples by which a recording has to be moved: the delay on which the channels in `known` agree; 0 if `known` is empty.
+    /// Number of samples by which a recording begins before the drive: the delay on which the channels in
+    /// `known` agree; 0 if `known` is empty.
     fn late(&self, wanted: &Wanted, lines: &[Vec<f64>]) -> Result<f64, Fault> {
         if self.known.is_empty() {
             return Ok(0.0);
@@ -176,8 +184,8 @@ impl Takes {
         }
     }
 
-    /// Why a recording seems to begin too late that does not: what begins it is where it should be, and most of it earlier, since samples
-    /// were lost in between.
+    /// The fault of a recording that seems to begin too late because samples were lost in it: its first
+    /// piece is in place, and later ones are too early.
     fn lost(&self, wanted: &Wanted, lines: &[Vec<f64>], late: f64) -> Option<Fault> {
         let length = self.drive.samples() / PIECES;
         let reach = (late.abs() + MARGIN + AFTER) as usize;
@@ -215,7 +223,7 @@ impl Takes {
         Delay::between(line, known, self.rate(), self.reader.band).ok()
     }
 
-    /// Refuses a recording in which the signal of a channel in `known` is found in another channel.
+    /// Returns a fault if the signal of a channel in `known` is found in another channel of the recording.
     fn in_place(&self, wanted: &Wanted, lines: &[Vec<f64>]) -> Result<(), Fault> {
         for (input, known) in &self.known {
             let likeness = |line: &Vec<f64>| self.like(line, known).map_or(0.0, |delay| delay.correlation);
@@ -233,7 +241,7 @@ impl Takes {
         Ok(())
     }
 
-    /// Refuses a recording that was begun too late.
+    /// Returns a fault if the recording was begun too late.
     fn begun(&self, wanted: &Wanted, late: f64) -> Result<(), Fault> {
         if late >= -MARGIN - AFTER {
             return Ok(());
@@ -244,13 +252,14 @@ impl Takes {
         Err(Fault::new(&wanted.file, why, "begin to record first, then to play"))
     }
 
-    /// As many samples of a recording as are played, from sample `late` on.
+    /// The samples of a recording from sample `late` on, as many as the drive has.
     fn moved(&self, line: &[f64], late: f64) -> Vec<f64> {
         let at = |i: usize| usize::try_from(i as i64 + late as i64).ok().and_then(|i| line.get(i));
         (0..self.drive.samples()).map(|i| at(i).copied().unwrap_or(0.0)).collect()
     }
 
-    /// The channels of a recording, checked for what it is of use for: sensors may be dead, but not all of them.
+    /// Reads the channels of a recording, and checks that the channels it is needed for have a signal:
+    /// sensors may be dead, but not all of them.
     fn lines(&self, wanted: &Wanted) -> Result<Vec<Vec<f64>>, Fault> {
         let mut all: Vec<usize> = self.wires.reference.into_iter().collect();
         if wanted.at.is_some() {
@@ -273,7 +282,7 @@ impl Takes {
     }
 }
 
-/// The loudest of some channels, at most as many as are to tell.
+/// The loudest of the channels `inputs`, at most [`TELLING`] of them.
 fn loudest(lines: &[Vec<f64>], mut inputs: Vec<usize>) -> Vec<usize> {
     let power = |input: &usize| lines[*input].iter().map(|x| x * x).sum::<f64>();
     inputs.sort_by(|a, b| power(b).total_cmp(&power(a)));

@@ -1,4 +1,4 @@
-//! The wiring test on recordings: what is dead, swapped or reversed, by the sweeps that were recorded.
+//! The wiring test by recordings made elsewhere: which actuators and sensors are dead, swapped or reversed.
 
 use super::Bench;
 use super::rig::TapeRig;
@@ -11,42 +11,45 @@ use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, Session};
 use unripple_devices::{DevicesError, Expected, WiringOptions, WiringReport, check_responses, reciprocal};
 
-/// Signal to noise, in dB, below which a channel counts as silent.
+/// Signal-to-noise ratio, in dB, below which a channel counts as silent.
 const DEAF: f64 = 6.0;
 
-/// An actuator is dead that is this much quieter than the loudest, as a share, or [`QUIET`] and no more than noise.
+/// Amplitude relative to the loudest actuator below which an actuator counts as dead; below [`QUIET`], one
+/// also counts as dead if it does not exceed the noise.
 const DEAD: f64 = 0.01;
 const QUIET: f64 = 0.3;
 
-/// Share of the inputs that must be like the model for it to be believed. Two thirds: with fewer it is the model that
-/// is wrong, not so many wires.
+/// Share of the inputs that must agree with the model for the model to be used. Two thirds: with fewer it
+/// is the model that is wrong, not so many wires.
 const BELIEVED: f64 = 0.67;
 
-/// Middle frequencies of the bursts that a fault is found by, as shares of the band. A wire is wrong at all of them; where the surface is
-/// not like its model, what seems wrong differs from one to the next.
+/// Middle frequencies of the bursts by which faults are found, as shares of the band. A wrong wire shows at
+/// all of them; where only the surface differs from its model, the apparent faults differ from one to the
+/// next.
 const BURSTS: [f64; 3] = [0.2, 0.4, 0.6];
 
-/// Points that are looked at where there are no sensors. Near a node of one point's mode another still shows it.
+/// Number of points that are evaluated where there are no sensors. Near a node of one mode at one point,
+/// another point still shows it.
 const LOOKED_AT: usize = 3;
 
-/// The faults of the wires, as recordings show them.
+/// Result of the wiring test by recordings: dead actuators and sensors, and faults of the wiring.
 #[derive(Clone, Debug, Default)]
 pub struct Tried {
-    /// Actuators whose drive no input records.
+    /// Indices of actuators whose drive no input records.
     pub dead: Vec<usize>,
-    /// Actuators whose sensor records nothing.
+    /// Indices of actuators whose sensor records nothing.
     pub deaf: Vec<usize>,
-    /// Wires that are not as they should be.
+    /// Faults of the wiring, each as a sentence.
     pub faults: Vec<String>,
-    /// Notes that are no faults.
+    /// Notes that do not count as faults.
     pub notes: Vec<String>,
 }
 
-/// Why wires could not be tried.
+/// Why the wiring could not be tested.
 pub enum Failed {
-    /// The recording of the actuators is no good.
+    /// The recording of the actuators cannot be used, for the reason in the text.
     Recording(String),
-    /// Any other error.
+    /// An error that is not due to a recording.
     Other(TaskError),
 }
 
@@ -65,7 +68,7 @@ impl From<DevicesError> for Failed {
     }
 }
 
-/// Tries the wires by the recording of the actuators, and that of the first point that is there.
+/// Tests the wiring by the recording of the actuators, and that of the first point that has one.
 pub fn tried(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Tried, Failed> {
     let mut tried = Tried { dead: bench.campaign.settings.without.clone(), ..Tried::default() };
     let rows = heard(bench, session, rig)?;
@@ -86,7 +89,7 @@ pub fn tried(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<
     Ok(tried)
 }
 
-/// Responses of all actuators at all sensors; without sensors, those at the probe at some points.
+/// Responses from all actuators to all sensors; without sensors, those to the probe at some points.
 fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<Channel>, Failed> {
     let (last, centre) = (bench.campaign.places.points.len(), middle(bench.campaign.surface));
     if !bench.takes.wires.sensors.is_empty() {
@@ -162,7 +165,7 @@ impl Tried {
         (0..count).filter(|a| !self.dead.contains(a) && !self.deaf.contains(a)).collect()
     }
 
-    /// Wires that contradict reciprocity.
+    /// Faults of the wiring that contradict reciprocity.
     fn reciprocal(
         &self,
         bench: &Bench<'_>,
@@ -191,7 +194,8 @@ impl Tried {
         Ok(reciprocal(&names, &heard, &spare).faults)
     }
 
-    /// Wires that contradict the model, where that is like the surface at all.
+    /// Adds faults of the wiring that contradict the model, if the model agrees with the surface well
+    /// enough.
     fn model(
         &mut self,
         bench: &Bench<'_>,
@@ -252,7 +256,8 @@ impl Tried {
     }
 }
 
-/// Channels that are compared with the model, with their names; where the probe was, if it is the last of them.
+/// Channels that are compared with the model, with their names, and the place of the probe if the last of
+/// them is the probe.
 struct Held {
     names: Vec<String>,
     channels: Vec<Channel>,
@@ -260,7 +265,8 @@ struct Held {
 }
 
 impl Held {
-    /// Sensors of some actuators; with a probe, of one point's recording, so that it may have changed places with a sensor.
+    /// The sensors of the actuators `alive`; if there is a probe, all from the recording of one point, so
+    /// that a swap of probe and sensor shows.
     fn of(
         bench: &Bench<'_>,
         session: &Session,
@@ -288,13 +294,15 @@ impl Held {
     }
 }
 
-/// A channel, and the actuator that it belongs to, whose signal is louder in it than others'.
+/// A recorded channel, and the actuator that its sensor belongs to, whose signal is louder in it than those
+/// of others.
 struct Hearing<'a> {
     itself: Option<usize>,
     channel: &'a Channel,
 }
 
-/// Whether an actuator is dead: compared with the strongest response to other actuators, the sensors record no more of it than noise.
+/// Whether an actuator is dead: in the sensors, its responses are far weaker than the strongest of other
+/// actuators, or weak and within the noise.
 fn is_dead(hearing: &[Hearing<'_>], drive: usize) -> bool {
     let others = hearing.iter().filter(|one| one.itself != Some(drive));
     let share = |one: &Hearing<'_>| {

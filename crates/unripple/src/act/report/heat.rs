@@ -6,11 +6,12 @@ use serde::Serialize;
 /// Mean heat in the coils of a surface under a drive, over the whole drive or its last period.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CoilHeat {
-    /// Heat in all coils, in W.
+    /// Mean heat in all coils together, in W.
     pub total_w: f64,
-    /// Heat in the coil that takes most, in W.
+    /// Mean heat in the coil with the most, in W.
     pub largest_w: f64,
-    /// Whether these are upper bounds, since voltages are given: inductance and the motion of the magnets keep currents lower.
+    /// Whether `total_w` and `largest_w` are upper bounds, as for coils driven by a voltage: inductance and
+    /// the motion of the magnets keep currents lower.
     pub at_most: bool,
 }
 

@@ -15,7 +15,8 @@ use crate::focus::Focused;
 use crate::physics::design::Linearity;
 use serde::Serialize;
 
-/// The report of one drive on one surface. Lengths are in metres, times in seconds, drives in their own unit.
+/// The report of one drive on one surface. Lengths are in metres, times in seconds, drives in the
+/// actuators' unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the program.
@@ -26,7 +27,7 @@ pub struct Report {
     pub command: &'static str,
     /// Name of the surface.
     pub surface: String,
-    /// The model on which metrics were computed, where it is not the surface above with the modes of its band.
+    /// The model on which metrics were computed, if it is not `surface` with the modes of its band.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub judged_on: Option<String>,
     /// Method by which the drive was computed.
@@ -38,9 +39,9 @@ pub struct Report {
     /// The period of a repeated drive, in seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period_s: Option<f64>,
-    /// Samples per second of the drive.
+    /// Sample rate of the drive, in Hz.
     pub sample_rate_hz: f64,
-    /// The channels of the drive.
+    /// The channels of the drive, one per actuator.
     pub actuators: Vec<Channel>,
     /// Metrics of every target.
     pub targets: Vec<TargetFigures>,
@@ -61,11 +62,11 @@ pub struct Report {
     pub linearity: Option<Linearity>,
     /// Metrics of the drive itself.
     pub drive: DriveFigures,
-    /// Mean mechanical power that the actuators give to the sheet, in W, over the whole drive or its last period; absent where
-    /// [`power()`](crate::act::power()) does not know it.
+    /// Mean mechanical power that the actuators give to the sheet, in W, over the whole drive or its last
+    /// period; absent where [`power()`](crate::act::power()) cannot determine it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_mechanical_power_w: Option<f64>,
-    /// Mean heat in the coils; only if the surface has some.
+    /// Mean heat in the coils; absent if the surface has no coils.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coil_heat: Option<CoilHeat>,
     /// Level of the drive relative to its limits, and what decided it.
@@ -76,13 +77,13 @@ pub struct Report {
     pub thickness: f64,
     /// Shortest wavelength of the band, in metres.
     pub lambda_min_m: f64,
-    /// Radius around every target that does not count as outside, in metres.
+    /// Radius of the focal disc around every target, in metres; only points beyond it count as outside.
     pub focal_radius_m: f64,
     /// Whether the points outside the focal discs are those of a regular grid or those of a library of responses.
     pub taken_on: TakenOn,
     /// Number of points that lie outside every target's disc.
     pub outside_points: usize,
-    /// Number of outside points over that of all points, from 0 to 1.
+    /// Share of all points that lie outside every target's disc, from 0 to 1.
     pub outside_share: f64,
     /// The highest level felt outside the focal discs, in dB above the threshold of touch.
     pub felt_outside_db: Option<f64>,
@@ -104,7 +105,7 @@ pub struct Channel {
 }
 
 impl Report {
-    /// A report of `command`.
+    /// The report of `command` on a drive of a surface, from the drive's evaluation.
     pub fn new(command: &'static str, surface: &Surface, drive: &Drive, judged: &Judged) -> Self {
         let measured = &judged.measured;
         let channel =
@@ -142,7 +143,7 @@ impl Report {
         }
     }
 
-    /// A report of a focus made with a window of `window` seconds.
+    /// The report of a focus that was computed with a window of `window` seconds.
     pub fn of_focus(
         surface: &Surface,
         focused: &Focused,

@@ -11,7 +11,8 @@ pub struct Followed {
     pub figures: WaveformFigures,
     /// Start of the waveform, in seconds from the drive's first sample.
     pub start_s: f64,
-    /// Largest displacement prescribed, in metres, after scaling to the limits and within the band.
+    /// Largest prescribed displacement, in metres, after the waveform was restricted to the band and scaled
+    /// to the drive limits.
     pub asked_peak_m: f64,
     /// Share of the waveform's energy, 0 to 1, outside the band, which was left out.
     pub lost: f64,
@@ -52,7 +53,8 @@ pub(super) fn lines(
 }
 
 impl Followed {
-    /// How well the waveform was followed, and how its target was felt and stands out.
+    /// Line on how well a waveform was followed, what is felt at its target, and the strongest motion
+    /// elsewhere.
     fn line(&self, target: Option<&TargetFigures>) -> String {
         let w = &self.figures;
         let others = w.crosstalk_db.map_or(String::new(), |db| format!(", others {db:.1} dB"));
@@ -73,7 +75,7 @@ impl Followed {
 }
 
 impl Stroked {
-    /// How even the level was along the path.
+    /// Line on how even the level is along the path.
     fn line(&self) -> String {
         let ([low, high], [least, most]) = (self.level_range_db, self.peak_range_db);
         format!(
@@ -86,7 +88,7 @@ impl Stroked {
     }
 }
 
-/// The focus in the middle of a stroke's path.
+/// Line on the focus in the middle of a stroke's path.
 fn middle(target: &TargetFigures) -> String {
     let contrast = target.contrast.map_or(String::new(), |ratio| format!(", contrast {ratio:.2}"));
     let spot = target.spot_diameter_m.map_or(String::new(), |m| format!(", spot diameter {:.3} mm", m * 1e3));

@@ -7,8 +7,8 @@ use crate::field::{TakenOn, TargetFigures, Threshold};
 use std::fmt::Write;
 
 impl Report {
-    /// The report as text for a terminal: one block of metrics per target, or how waveforms were followed and a stroke kept its
-    /// level, then drive and notes.
+    /// The report as text for a terminal: one block of metrics per target (for waveforms and strokes, lines
+    /// on how well they are followed), then drive and notes.
     pub fn text(&self) -> String {
         let mut text = format!("{}{}\n", self.surface, self.how());
         for target in self.foci() {
@@ -113,7 +113,7 @@ impl Report {
         text.push('\n');
     }
 
-    /// The targets whose metrics are those of a focus: none where waveforms or a stroke were asked for.
+    /// The targets whose metrics are those of a focus: none for waveforms or a stroke.
     fn foci(&self) -> &[TargetFigures] {
         let played = self.stroke.is_some() || !self.waveforms.is_empty();
         if played { &[] } else { &self.targets }
@@ -150,7 +150,8 @@ impl Report {
         ))
     }
 
-    /// The line on sensations elsewhere than at the targets; none of a stroke, whose other pulses are elsewhere.
+    /// The line on what is felt elsewhere than at the targets; none for a stroke, whose other pulses are
+    /// elsewhere.
     fn felt_line(&self) -> Option<String> {
         let outside = self.felt_outside_db.filter(|_| self.stroke.is_none())?;
         let level = match outside > 0.0 {
@@ -239,12 +240,13 @@ fn finger_line(finger: &Felt) -> String {
     )
 }
 
-/// A figure in words, unless it is not known.
+/// A value as text by `said`, or "unknown" if it is NaN.
 fn known(value: f64, said: impl Fn(f64) -> String) -> String {
     if value.is_nan() { "unknown".into() } else { said(value) }
 }
 
-/// Name, velocity, displacement and what is felt of every figure, headings first.
+/// Rows of the table of a target's metrics: name, and values for velocity, displacement and felt level,
+/// headings first.
 fn rows(t: &TargetFigures) -> Vec<[String; 4]> {
     let ratio = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2}"));
     let scaled = |x: Option<f64>, factor: f64, unit: &str| {
