@@ -5,15 +5,17 @@ use std::fmt;
 use std::sync::Arc;
 use unripple_core::Point;
 
-/// A timed command for a player: something that a voice is to do at a given time.
+/// A timed command for a player: what a voice is to do, and when.
 ///
 /// A voice belongs to one part of one effect, for one contact of one finger (from touch to lift). Its number is not used again.
 /// [`Act::Move`], [`Act::Gain`] and [`Act::Stop`] refer to what the voice last started.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cue {
-    /// Number of the voice, made of the numbers of contact, effect and part.
+    /// Number that identifies the voice: its bits hold the numbers of the contact, of the effect, and of the
+    /// effect's part.
     pub voice: u64,
-    /// When it is due, in s of the clock that times the touches. A time in the past means at once.
+    /// Time at which the act is due, in s of the clock that times the touches. An act whose time has passed
+    /// is due at once.
     pub at: f64,
     /// What the voice is to do.
     pub act: Act,
@@ -47,9 +49,10 @@ pub enum Act {
         place: Point,
         /// The waveform, with a full scale of 1.
         wave: Wave,
-        /// Level of a sample of 1.
+        /// Level at which a sample value of 1 is played.
         gain: Level,
-        /// Whether the waveform repeats until it is stopped. The samples of one that repeats continue from its end to its start without a step.
+        /// Whether the waveform repeats until it is stopped. The last sample of such a waveform continues
+        /// into its first without a step.
         looped: bool,
         /// Duration of the fade-in, in s.
         fade: f64,

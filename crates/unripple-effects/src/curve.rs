@@ -60,7 +60,7 @@ impl Curve {
         Self { points, area }
     }
 
-    /// The points (abscissa, value) as given, in the curve's units.
+    /// The points (abscissa, value) that define the curve, in the curve's units.
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points
     }
@@ -70,7 +70,7 @@ impl Curve {
         self.points.iter().all(|(_, y)| *y == self.points[0].1)
     }
 
-    /// Abscissa of the last point, in its unit.
+    /// Abscissa of the last point, in the unit of the curve's abscissa.
     pub fn end(&self) -> f64 {
         self.points[self.points.len() - 1].0
     }
@@ -88,8 +88,8 @@ impl Curve {
         }
     }
 
-    /// Integral of the function from its first point to the abscissa `x` (backwards for an `x` before that), in the unit of
-    /// the value times that of the abscissa.
+    /// Integral of the function from the abscissa of its first point to `x` (for a smaller `x`, minus the
+    /// integral from `x` to the first point), in the unit of the value times that of the abscissa.
     pub fn integral(&self, x: f64) -> f64 {
         let n = self.points.partition_point(|p| p.0 <= x).saturating_sub(1);
         let (x0, y0) = self.points[n];

@@ -9,8 +9,9 @@ use unripple_core::{Outline, Phase, Point, Touch};
 
 /// Largest time accepted, in s: there the rounding of f64 is a tenth of a millisecond. With twice this time, it is two tenths.
 const LARGEST_TIME: f64 = 1e12;
-/// Bits of a voice's number for the effect, and as many below them for its part; the contact is above. This allows
-/// 256 effects in a set, of which [`limits::MOST_EFFECTS`] permits 64.
+/// Number of bits of a voice's number that hold the effect, and of the bits below them that hold the
+/// effect's part; the bits above hold the contact. This allows 256 effects in a set, of which
+/// [`limits::MOST_EFFECTS`] permits 64.
 const EFFECT_BITS: u32 = 8;
 
 /// A running set of effects: takes touches and the time, gives cues.
@@ -82,7 +83,8 @@ impl Effects {
         })
     }
 
-    /// Processes a touch event and appends its cues to `cues`, after all timed cues that are due up to its time.
+    /// Processes a touch event and appends its cues to `cues`, after all timed cues that are due by the time
+    /// of the touch.
     pub fn touch(&mut self, touch: &Touch, cues: &mut Vec<Cue>) {
         let lifts = touch.phase == Phase::Up;
         let is_time = touch.time.is_finite() && touch.time.abs() <= LARGEST_TIME;

@@ -40,7 +40,8 @@ impl Envelope {
         Ok(Self { amplitude, frequency })
     }
 
-    /// A steady sine of a frequency in Hz: a whole number of periods that last at least a quarter of a second.
+    /// A sine of the given frequency (Hz) with constant amplitude 1. It lasts a whole number of periods, and
+    /// at least 0.25 s.
     ///
     /// # Errors
     /// [`EffectsError::Range`] if the frequency is not within [`limits::FREQUENCY`].
@@ -90,8 +91,9 @@ impl Envelope {
         Ok(Wave { samples: (0..count).map(sample).collect(), rate })
     }
 
-    /// The samples of a(t) sin(2π∫f dt) to be played in a loop, at `rate` samples per second. Its frequency is scaled so that the
-    /// envelope holds a whole number of periods (the nearest, at least one), so that the end continues into the start at a zero.
+    /// The samples of a(t) sin(2π∫f dt) to be played in a loop, at `rate` samples per second. The frequency
+    /// is scaled so that the envelope holds a whole number of periods (the nearest, at least one): the end
+    /// then continues into the start at a zero crossing.
     ///
     /// # Errors
     /// [`EffectsError::Range`] if the rate is not within [`limits::SAMPLE_RATE`].

@@ -13,7 +13,7 @@ pub enum EffectsError {
     Size {
         /// Name of what is counted.
         what: &'static str,
-        /// The allowed numbers, in words.
+        /// The allowed number or range of numbers, in words.
         expected: String,
         /// The number found.
         found: usize,
@@ -45,7 +45,7 @@ pub enum EffectsError {
     NoScore {
         /// The names of the scores that can be started by name.
         expected: String,
-        /// The name that was asked for.
+        /// The name that was requested.
         found: String,
     },
 }

@@ -13,7 +13,7 @@ const SHORTEST: f64 = 1e-6;
 
 /// A finger on the surface, and every effect under it.
 pub(crate) struct Finger {
-    /// Number of the contact, from which its voices are numbered.
+    /// Number of the contact, which is part of the numbers of its voices.
     pub contact: u64,
     /// Time, position, force and velocity at its last touch event.
     pub last: Moment,
@@ -26,7 +26,7 @@ pub(crate) struct Finger {
 pub(crate) struct Under {
     /// Whether the finger is in its region.
     pub inside: bool,
-    /// What it plays.
+    /// The running effect, which gives the cues.
     pub play: Box<dyn Play>,
 }
 
@@ -54,7 +54,7 @@ impl Finger {
     }
 }
 
-/// Whether an effect acts at a place (m): it lies in the effect's region and on the sheet.
+/// Whether an effect acts at a place (m): whether the place lies in the effect's region and on the sheet.
 pub(crate) fn holds(outline: &Outline, region: &Region, at: Point) -> bool {
     region.contains(at) && outline.contains(at)
 }

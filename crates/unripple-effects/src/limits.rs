@@ -21,24 +21,25 @@ pub const PLACE: [f64; 2] = [-1000.0, 1000.0];
 pub const LENGTH: [f64; 2] = [1e-4, 1000.0];
 /// Greatest distance of random pulses from the finger, in m: zero for none, at most a metre.
 pub const SCATTER: [f64; 2] = [0.0, 1.0];
-/// Pressing force of a finger, in N: from a hundredth, less than that of any touch, to a hundred.
+/// Pressing force of a finger, in N: from 0.01 N, which is less than any touch exerts, to 100 N.
 pub const FORCE: [f64; 2] = [0.01, 100.0];
 /// Speed of a finger or of a point that traces a shape, in m/s: up to far more than that of a hand.
 pub const SPEED: [f64; 2] = [0.0, 100.0];
-/// Duration of a fade, in s: at most ten, so that a voice that is stopped ends.
+/// Duration of a fade, in s: at most ten seconds, so that a voice ends soon after it is stopped.
 pub const FADE: [f64; 2] = [0.0, 10.0];
 /// A time within an envelope or a score, in s: at most [`LONGEST`].
 pub const TIME: [f64; 2] = [0.0, LONGEST];
-/// Period of a score that repeats, in s: at least a hundredth, which is a hundred repetitions a second.
+/// Period of a score that repeats, in s: at least a hundredth of a second, which is a hundred repetitions
+/// per second.
 pub const PERIOD: [f64; 2] = [0.01, LONGEST];
-/// Hysteresis of a notch, as a share of its pitch: below half, since at half a detent would begin only at its own
-/// centre.
+/// Hysteresis of a notch, as a share of its pitch: below 0.5, since with 0.5 the finger would enter a detent
+/// only at that detent's centre.
 pub const HYSTERESIS: [f64; 2] = [0.0, 0.45];
-/// An angle, in rad: two turns either way, more than needed.
+/// An angle, in rad: about two turns in either direction, more than needed.
 pub const ANGLE: [f64; 2] = [-13.0, 13.0];
 
-/// Longest envelope or score, and greatest total duration of the waveforms of a set, in s: 23 MB at 48 kHz. With twice this value,
-/// they take twice the memory.
+/// Longest envelope or score, and greatest total duration of the waveforms of a set, in s: the samples take
+/// 23 MB at 48 kHz. With twice this value, they take twice the memory.
 pub const LONGEST: f64 = 120.0;
 /// Largest number of effects in a set: each is evaluated at every touch. With twice this value, a touch takes up to twice as long to
 /// process.
@@ -53,7 +54,8 @@ pub const MOST_EVENTS: usize = 4096;
 /// Largest number of points of a shape that is played on all points at once: the focus uses the responses of each. With twice this
 /// value, such a focus takes twice as long to compute.
 pub const MOST_AT_ONCE: usize = 256;
-/// Greatest number of pulses that a pulse train can be given: 17 minutes at the highest rate. Twice as many take twice as long.
+/// Greatest number of pulses of a pulse train: at the highest rate they last 17 minutes, and with twice this
+/// value twice as long.
 pub const MOST_COUNT: u32 = 1_000_000;
 
 /// Largest number of fingers tracked at once; further ones are ignored until one of these is lifted. With twice this value, calls take up

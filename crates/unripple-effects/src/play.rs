@@ -18,7 +18,8 @@ pub(crate) struct Moment {
 }
 
 impl Moment {
-    /// The speed in m/s assumed at a later time (s), if no touch event has arrived since.
+    /// The finger's speed, in m/s, that is assumed at a later time (s) if no touch event has arrived since:
+    /// the last one for at most [`limits::HOLD`], then 0.
     pub fn speed_at(&self, time: f64) -> f64 {
         if time > self.time + limits::HOLD { 0.0 } else { self.velocity.x.hypot(self.velocity.y) }
     }
@@ -54,7 +55,7 @@ pub(crate) type Maker = Box<dyn Fn(u64) -> Box<dyn Play> + Send>;
 pub(crate) struct Budget {
     /// Cues that may still be added.
     pub left: usize,
-    /// Cues left out so far.
+    /// Number of cues dropped so far because no more could be added.
     pub dropped: u64,
 }
 
@@ -66,14 +67,16 @@ pub(crate) struct Out<'o> {
     pub budget: &'o mut Budget,
     /// The sheet: pulses outside it are not cued.
     pub outline: &'o Outline,
-    /// Number of the voice of part 0; its lowest eight bits are zero and take the part.
+    /// Number of the voice of part 0. Its lowest eight bits are zero; for any other part they hold the
+    /// part's number.
     pub voice: u64,
     /// Level of the effect at a gain of 1.
     pub level: Level,
 }
 
 impl Out<'_> {
-    /// Adds an act of part `part` of the voice at time `at` (s), if the number of acts that may still be made allows.
+    /// Adds a cue for an act of the effect's part `part`, due at `at` (s). When the budget of cues is used
+    /// up, any act except a stop is dropped and counted.
     pub fn push(&mut self, part: u8, at: f64, act: Act) {
         if !matches!(act, Act::Stop { .. }) {
             if self.budget.left == 0 {
@@ -90,26 +93,28 @@ impl Out<'_> {
         self.budget.left == 0
     }
 
-    /// Adds a pulse at a time (s) and a place (m) with a gain (a factor), if the place is on the sheet.
+    /// Adds a cue for a pulse at a time (s) and a place (m), if the place is on the sheet and the gain (a
+    /// factor on the effect's level) is positive.
     pub fn pulse(&mut self, at: f64, place: Point, gain: f64) {
         if gain > 0.0 && self.outline.contains(place) {
             self.push(0, at, Act::Pulse { place, gain: self.level.scaled(gain) });
         }
     }
 
-    /// Adds a waveform of a part at a time (s) and a place (m).
+    /// Adds a cue that starts a waveform in part `part` of the effect at a time (s) and a place (m).
     pub fn wave(&mut self, part: u8, at: f64, place: Point, sound: Sounding) {
         let gain = self.level.scaled(sound.gain);
         let Sounding { wave, looped, fade, .. } = sound;
         self.push(part, at, Act::Wave { place, wave, gain, looped, fade });
     }
 
-    /// Adds a shape of points (m) at a time (s).
+    /// Adds a cue for one pulse, at a time (s), that is focused on all of the points (m).
     pub fn shape(&mut self, at: f64, points: Arc<[Point]>) {
         self.push(0, at, Act::Shape { points, gain: self.level });
     }
 
-    /// Adds the end of a part at a time (s), with a fade (s).
+    /// Adds a cue that stops part `part` of the effect at a time (s), with a fade-out of duration `fade`
+    /// (s).
     pub fn stop(&mut self, part: u8, at: f64, fade: f64) {
         self.push(part, at, Act::Stop { fade });
     }
@@ -141,8 +146,8 @@ impl Beat {
         Self { start, period, index: 0 }
     }
 
-    /// The number and time (s) of the next instant, if it is due up to `until` (s). Instants overdue by more than
-    /// [`limits::LATEST`] are skipped.
+    /// The number and time (s) of the next instant, if that is not later than `until` (s). Instants overdue
+    /// by more than [`limits::LATEST`] are skipped.
     pub fn next(&mut self, until: f64) -> Option<(u64, f64)> {
         let late = ((until - limits::LATEST - self.start) / self.period).ceil();
         // A negative or huge count saturates.

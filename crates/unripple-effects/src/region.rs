@@ -25,7 +25,8 @@ pub enum Region {
         /// Its radius, in m.
         radius: f64,
     },
-    /// A polygon, by its corners in m, in either sense of rotation; where sides cross, the even-odd rule decides.
+    /// A polygon, given by its corners in m, clockwise or anticlockwise; if its sides cross, the even-odd
+    /// rule decides what is inside.
     Polygon(Vec<Point>),
 }
 

@@ -1,4 +1,5 @@
-//! Runs the player in blocks of its own length, and gives a device as many samples as it asks for.
+//! Runs the player in blocks of the player's length, and gives the device as many samples as each of its
+//! cycles requests.
 
 use crate::{Percentiles, Timeline};
 use assert_no_alloc::assert_no_alloc;
@@ -111,12 +112,12 @@ impl Beats {
         (self.bell, self.overheard) = (bell, overheard);
     }
 
-    /// Takes back the queue to the follower of tension.
+    /// Removes and returns the queue to the follower of tension.
     pub fn take_overheard(&mut self) -> Option<Overheard> {
         self.overheard.take()
     }
 
-    /// The first sample that has not been given to the device yet.
+    /// Index, on the player's clock, of the first sample that has not been passed to the device yet.
     pub fn position(&self) -> u64 {
         self.player.clock() - self.left as u64
     }
@@ -144,8 +145,8 @@ impl Beats {
         self.heavy += u64::from(load > HEAVY);
     }
 
-    /// Records that the `frames` samples from `first` on begin to leave the device at `leaves`, and wakes the thread
-    /// that waits for it.
+    /// Records that the `frames` samples from `first` on begin to leave the device at the time `leaves`, and
+    /// wakes the thread that waits for them, if there is one.
     pub fn mark(&mut self, first: u64, leaves: std::time::Instant, frames: usize) {
         let next = self.player.clock();
         self.timeline.mark(first, leaves, frames, next);
@@ -156,7 +157,7 @@ impl Beats {
         }
     }
 
-    /// Processor time of the player's part of each cycle, in s.
+    /// Processor time, in s, that the player took in each cycle.
     pub fn work(&self) -> &Percentiles {
         &self.work
     }

@@ -157,8 +157,8 @@ impl Conductor {
         self.desk.end((fade * self.rate).round() as u32);
     }
 
-    /// Whether everything has faded out after [`Conductor::end`]. Stays false if the player is not asked for further
-    /// blocks.
+    /// Whether everything has faded out after [`Conductor::end`]. Stays false if no further blocks of the
+    /// player are computed.
     pub fn is_over(&self) -> bool {
         self.desk.is_over()
     }
@@ -249,8 +249,8 @@ impl Conductor {
         Some((seconds * self.rate).round() as u32).filter(|samples| *samples > 0)
     }
 
-    /// Changes to another maker of drives after the surface has changed. Sustained sounds change to its drives from
-    /// `now` on, a sample of the player's clock.
+    /// Continues with another worker that computes drives, after the surface has changed. Sustained sounds
+    /// change to its drives from `now` on, a sample of the player's clock.
     ///
     /// # Errors
     /// [`LiveError::Gone`] if the thread that computes drives is gone.

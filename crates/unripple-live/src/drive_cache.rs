@@ -1,4 +1,4 @@
-//! A cache of drives by the place they focus on.
+//! A cache of drives, found by the points they focus on.
 
 use crate::{FocusDrive, FocusWorker, LiveError, Percentiles};
 use std::collections::HashMap;
@@ -37,10 +37,12 @@ pub struct DriveCache {
     making: Percentiles,
 }
 
-/// A full level, that of a share of 1 ([`Level::Share`]), given as a sensation level.
+/// The full level, which a share of 1 stands for ([`Level::Share`]), given as a sensation level at one
+/// place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Full {
-    /// Place where the full level is defined, in m. At other places the same share of the limit is used.
+    /// Place where the full level is defined, in m. At other places the same fraction of the drive's limit
+    /// is used.
     pub place: Point,
     /// Sensation level at this place without the load of a finger, in dB above the threshold of vibrotactile
     /// detection.
@@ -103,7 +105,8 @@ impl DriveCache {
         let _ = self.full_pulse();
     }
 
-    /// Forgets all drives and continues with another maker, after the surface has changed.
+    /// Discards all drives, and continues with another worker that computes them, after the surface has
+    /// changed.
     pub fn replace(&mut self, maker: FocusWorker) {
         maker.request_realtime(self.hurried);
         self.maker = maker;
@@ -112,7 +115,7 @@ impl DriveCache {
         self.waves.clear();
     }
 
-    /// Times that it took to compute drives so far, in s.
+    /// Times taken to compute the drives so far, in s.
     pub fn making(&self) -> &Percentiles {
         &self.making
     }
@@ -142,8 +145,8 @@ impl DriveCache {
         Ok(at)
     }
 
-    /// Factor, at most 1, on the drive of these points that gives a pulse a level, and whether the level would need
-    /// more than the limit.
+    /// Factor, at most 1, on the drive that focuses at these points, with which a pulse has the given level;
+    /// and whether that level would need a factor above 1, beyond the limit.
     ///
     /// # Errors
     /// Those of [`DriveCache::at`] and [`FocusWorker::trace`].
@@ -157,10 +160,11 @@ impl DriveCache {
         }
     }
 
-    /// Factor on the drive of a place, used as filters, that gives a waveform a level, and whether the level would
-    /// need more than the limit. Without a [`Full`], a share of 1 is a waveform whose full scale, as a steady sine of
-    /// any frequency, would just reach the drive's limit at some actuator. A sensation level is that of the
-    /// waveform's loudest quarter of a second.
+    /// Factor on the drive that focuses at a place, used as filters for a waveform, with which the waveform
+    /// has the given level; and whether that level is beyond the limit, so that the factor was reduced.
+    /// Without a [`Full`], a share of 1 is a waveform whose full scale, as a steady sine of any frequency,
+    /// would just reach the drive's limit at some actuator. A sensation level is that of the waveform's
+    /// loudest quarter of a second.
     ///
     /// # Errors
     /// As [`DriveCache::pulse_gain`].
@@ -176,8 +180,8 @@ impl DriveCache {
         }
     }
 
-    /// Largest factor with which overlapping copies of a drive, `period` samples apart, stay within the limit, so
-    /// that none has to be weaker than the others.
+    /// Largest factor with which copies of a drive that start every `period` samples, and may overlap, stay
+    /// within the limit together, so that the player scales down none of them.
     pub fn even(&self, drive: &Prepared, period: f64) -> f32 {
         let most = (0..drive.outputs()).map(|output| drive.comb_peak(output, period)).fold(0.0, f32::max);
         if most > 0.0 { self.limit as f32 / most } else { 1.0 }

@@ -22,7 +22,7 @@ pub(crate) struct Ears {
 pub(crate) struct News {
     /// Time of the moment, in s of the device's clock.
     pub now: f64,
-    /// Touches at their true places, and requests.
+    /// Touches at the places where they were measured, and requests.
     pub heard: Heard,
     /// The same touches, each moved to the place of the finger predicted for the focal instant.
     pub aimed: Vec<Touch>,
@@ -33,7 +33,7 @@ pub(crate) struct News {
 }
 
 impl News {
-    /// Whether anything happened.
+    /// Whether there are any touches or requests.
     pub fn any(&self) -> bool {
         !self.heard.touches.is_empty() || !self.heard.wishes.is_empty()
     }

@@ -81,7 +81,7 @@ impl Engine {
         Ok(Self { stage, heart: Heartbeat::new(player, block, device), ears, ahead })
     }
 
-    /// This engine with fingers put on a virtual surface, so that what they feel is computed.
+    /// This engine, with fingers pressed on a virtual surface, so that what they feel is computed.
     pub fn with_feeler(mut self, feeler: Feeler) -> Self {
         self.stage.feeler = Some(feeler);
         self
@@ -100,7 +100,7 @@ impl Engine {
         Ok(self)
     }
 
-    /// This engine with a listener that is given all touches and requests as they arrive.
+    /// This engine with a function that is called with all touches and requests as they arrive.
     pub fn with_listener(mut self, listener: Listener) -> Self {
         self.stage.listener = Some(listener);
         self

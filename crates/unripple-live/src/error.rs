@@ -23,15 +23,15 @@ pub enum LiveError {
     Unlike {
         /// Name of the device.
         device: String,
-        /// What the surface has.
+        /// Channels or sample rate of the surface, in words.
         expected: String,
-        /// What the device has.
+        /// Channels or sample rate of the device, in words.
         found: String,
     },
     /// A thread that live play needs has ended: the one that computes drives, or another.
     #[error("a thread that play needs is gone: {why}")]
     Gone {
-        /// Why, as far as is known.
+        /// Reason why the thread ended, as far as it is known.
         why: String,
     },
     /// A drive cannot be computed.

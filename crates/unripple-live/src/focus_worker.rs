@@ -9,12 +9,13 @@ use unripple_field::{Aim, Field, Reach};
 use unripple_focus::{Focuser, Options, Target};
 use unripple_physics::Medium;
 
-/// A drive at its limit that focuses once, at one or more points at the same instant, that of its last sample.
+/// A drive, scaled to the actuators' limit, that focuses once: at one or more points simultaneously, at the
+/// instant of its last sample.
 #[derive(Clone, Debug)]
 pub struct FocusDrive {
     /// The drive, in the actuators' unit, at the limit of the focusing options; gains below 1 make it weaker.
     pub drive: Arc<Drive>,
-    /// Index of the sample of the focal instant.
+    /// Index of the sample at the focal instant.
     pub instant: usize,
     /// Points of the focus, in m: those requested, or the nearest ones for which responses are stored.
     pub points: Vec<Point>,
@@ -65,7 +66,7 @@ enum Answer {
 }
 
 impl FocusWorker {
-    /// Starts the thread, and waits until it has prepared a method of focusing for these responses.
+    /// Starts the worker's thread, and waits until it has prepared a method of focusing for these responses.
     ///
     /// # Errors
     /// [`LiveError::Focus`] for responses or options that the method does not allow.
@@ -97,10 +98,10 @@ impl FocusWorker {
         })
     }
 
-    /// A worker for responses measured at points, which focuses at any place between them. [`Between`] interpolates
-    /// the responses there, with the wavenumbers of `medium`. For each focus the method has responses at the points
-    /// of the focus only. So only time reversal and its variants are useful; methods that minimise motion on the rest
-    /// of the surface are not.
+    /// A worker for responses measured at points, which focuses at any place between them. [`Between`]
+    /// interpolates the responses there, with the wavenumbers of `medium`. For each focus the method has
+    /// responses at the points of the focus only. So only time reversal and its variants are useful; methods
+    /// that minimise motion elsewhere on the surface are not.
     ///
     /// # Errors
     /// [`LiveError::Calibrate`] for a library without points, and those of [`FocusWorker::new`].

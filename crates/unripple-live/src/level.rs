@@ -8,13 +8,13 @@ use unripple_physics::design::{LinearLevel, linearity};
 
 /// The full level of a surface: what a gain of 1 in an effect stands for.
 ///
-/// A drive at the limit may move a sheet by many times its thickness, where it is no longer linear. So a full pulse
-/// moves the sheet as far as linear theory allows ([`LinearLevel`]: nowhere by more than half its thickness), unless
-/// the surface's own limit is lower or is asked for.
+/// A drive at the limit may move a sheet by many times its thickness, where it is no longer linear. So a
+/// full pulse moves the sheet as far as linear theory allows ([`LinearLevel`]: nowhere by more than half its
+/// thickness), unless the drive limit in the surface file is lower or is requested.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
-    /// Sensation level of a full pulse or waveform, and the place where it is defined; `None` if the full level is
-    /// the surface's own limit.
+    /// Sensation level of a full pulse or waveform, and the place where it is defined; `None` if the full
+    /// level is that of the limit in the surface file.
     pub full: Option<Full>,
     /// Displacement at a focus, in m, of a full pulse and at the surface's own limit.
     moved: [f64; 2],
@@ -24,8 +24,8 @@ pub struct Level {
 }
 
 impl Level {
-    /// The full level of a surface: that of a pulse that moves the sheet as far as linear theory allows. It is the
-    /// surface's own limit if that is lower, or if `limited` is true.
+    /// The full level of a surface: that of a pulse that moves the sheet as far as linear theory allows. It
+    /// is the level of a drive at the limit in the surface file if that is lower, or if `limited` is true.
     ///
     /// # Errors
     /// Those of [`FocusWorker::focus`] and [`FocusWorker::reach`].
@@ -44,7 +44,8 @@ impl Level {
         Ok(Self { full: Some(Full { place, felt_db }), moved: [share * most, most], limit, scaled: true })
     }
 
-    /// The full level for responses of unknown scale: since displacements are unknown, it is the surface's own limit.
+    /// The full level for responses of unknown scale: since displacements are unknown, it is the level of a
+    /// drive at the limit in the surface file.
     ///
     /// # Errors
     /// Those of [`Level::of`].

@@ -86,12 +86,12 @@ impl Log {
         }
     }
 
-    /// Forgets a name, when no more reports on it are expected.
+    /// Removes a name (voice number) on which no more reports are expected.
     pub fn forget(&mut self, name: u64) {
         self.playing.remove(&name);
     }
 
-    /// Forgets drives that are played once, after reports were lost: whether they began is unknown.
+    /// Removes drives that are played once, after reports were lost: whether they began is unknown.
     pub fn miss(&mut self) {
         self.playing.retain(|_, playing| playing.repeats);
     }

@@ -17,7 +17,7 @@ pub const LONGEST_WINDOW: f64 = 10.0;
 pub struct LiveOptions {
     /// Options of focusing. Their window is the delay of every focus.
     pub focus: FocusOptions,
-    /// The full level, that of a level share of 1; the drive's limit if `None`.
+    /// The full level, which a share of 1 stands for; with `None`, it is that of a drive at its limit.
     pub full: Option<Full>,
     /// Largest number of waveforms at once; 0 for none.
     pub waves: usize,
@@ -29,8 +29,8 @@ pub struct LiveOptions {
 }
 
 impl LiveOptions {
-    /// Defaults: time reversal with a window in s, the limits of a surface, ten waveforms at once, prediction of
-    /// moving fingers.
+    /// Default options for a surface: time reversal with a window of `window` s, the surface's limits, ten
+    /// waveforms at once, prediction of moving fingers.
     pub fn new(surface: &Surface, window: f64) -> Self {
         let Emission { limit, .. } = surface.emission;
         let focus = FocusOptions { method: Method::TimeReversal, window, limit, ..FocusOptions::default() };

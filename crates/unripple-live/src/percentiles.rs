@@ -44,7 +44,7 @@ impl Percentiles {
         self.worst = self.worst.max(seconds);
     }
 
-    /// Number of times that were NaN, and so are not in the histogram.
+    /// Number of added times that were NaN, and so are not in the histogram.
     pub fn unknown(&self) -> u64 {
         self.unknown
     }

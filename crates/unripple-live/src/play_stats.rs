@@ -8,34 +8,38 @@ use unripple_player::{Report, Why};
 pub struct PlayStats {
     /// Number of cues played.
     pub cues: u64,
-    /// Cues dropped because too many waited.
+    /// Number of cues dropped because too many were waiting for their time.
     pub dropped: u64,
-    /// Pulses dropped because they would have begun more than 0.1 s late, or because the player stood still.
+    /// Number of pulses dropped because they would have begun more than 0.1 s late, or because the player
+    /// stood still.
     pub stale: u64,
-    /// Waveforms that found all inputs of the player taken. Looped ones begin later, others are not played.
+    /// Number of waveforms that found all inputs of the player in use. Looped ones begin later, others are
+    /// not played.
     pub crowded: u64,
-    /// Pulses and waveforms whose level is beyond the limit, and was reduced to it.
+    /// Number of pulses and waveforms whose requested level was beyond the limit, and was reduced to the
+    /// limit.
     pub beyond: u64,
     /// Number of cues that failed, for example because of a place off the surface.
     pub failed: u64,
     /// Text of the last failure.
     pub failure: Option<String>,
-    /// Commands lost because the queue to the player was full.
+    /// Number of commands lost because the queue to the player was full.
     pub lost: u64,
-    /// Drives and waveforms that started.
+    /// Number of drives and waveforms that started.
     pub started: u64,
-    /// Number of events scaled down by a limit.
+    /// Number of drives that the player scaled down to stay within a limit.
     pub limited: u64,
-    /// Smallest factor by which a limit scaled an event down.
+    /// Smallest factor by which the player scaled down a drive; `None` if it scaled down none.
     pub least: Option<f32>,
-    /// Times that the player began to scale down all waveforms together.
+    /// Number of times that the player began to scale down all waveforms together.
     pub waves_limited: u64,
-    /// Commands that reached the player after the sample they were meant for.
+    /// Number of commands and starts that the player carried out later than requested.
     pub late: u64,
-    /// Commands that the player refused.
+    /// Number of commands that the player refused.
     pub refused: u64,
-    /// Latencies from a touch to the first sample of its answer, in s. With [`Engine::run`](crate::Engine::run) the
-    /// sample counts when it leaves the device, otherwise by the player's clock.
+    /// Latencies, in s, from a touch to the first sample of the drive that answers it. With
+    /// [`Engine::run`](crate::Engine::run) they end when that sample leaves the device, otherwise at its
+    /// time on the player's clock.
     pub first_sample: Percentiles,
     /// Latencies from a touch to the focus, in s.
     pub focus: Percentiles,

@@ -17,18 +17,18 @@ const GRANTED: &str = if cfg!(unix) { "real time" } else { "among ordinary progr
 /// thread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Priorities {
-    /// Of the thread that exchanges blocks, if the device does not call by itself.
+    /// Priority of the thread that exchanges blocks, if the device does not call the player by itself.
     pub(crate) audio: Option<u8>,
-    /// Of the thread that receives touches: they are timed when it wakes.
+    /// Priority of the thread that receives touches: they are timed when it wakes.
     pub(crate) touch: Option<u8>,
-    /// Of the threads that turn touches into drives.
+    /// Priority of the threads that turn touches into drives.
     pub(crate) beside: Option<u8>,
-    /// Of the server's own thread.
+    /// Priority of the sound server's thread.
     server: Option<u8>,
 }
 
 impl Priorities {
-    /// The priorities that suit a device.
+    /// Priorities for live play through a device: below that of its sound server's thread, if it has one.
     pub fn of(device: &dyn Device) -> Self {
         let Some(server) = device.status().server else {
             let beside = Some(BESIDE);

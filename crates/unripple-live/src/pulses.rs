@@ -22,7 +22,7 @@ pub(crate) struct Ahead {
 }
 
 impl Ahead {
-    /// Withdraws a voice's pulses; those that have begun ring out.
+    /// Cancels the pulses of a voice that have not begun; those that have begun play to their end.
     pub fn take_back(&mut self, voice: u64) {
         for (_, name, _) in self.given.extract_if(.., |(of, ..)| *of == voice) {
             self.taken.insert(name);
@@ -32,12 +32,12 @@ impl Ahead {
         }
     }
 
-    /// Forgets the pulses that are over.
+    /// Removes the pulses that are over.
     pub fn forget_over(&mut self) {
         self.given.retain(|(_, _, hold)| hold.over().is_none());
     }
 
-    /// Whether a report only says that a pulse was withdrawn.
+    /// Whether a report refuses a pulse only because [`Self::take_back`] cancelled it.
     pub fn meant(&mut self, report: &Report) -> bool {
         matches!(report, Report::Refused { voice: Some(name), why: Why::Stale } if self.taken.remove(&name.0))
     }

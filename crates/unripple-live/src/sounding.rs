@@ -39,22 +39,22 @@ impl Sounding {
 pub(crate) struct Kept {
     /// The sound, its place and level.
     pub sounding: Sounding,
-    /// The player's name (voice number) for it, used once.
+    /// Name (voice number) of the sound in the player; no other sound has the same.
     pub name: u64,
-    /// Handle that keeps it sounding in the player; none if the player does not know of it yet.
+    /// Handle that keeps the sound playing; `None` while the player has not been sent the sound.
     pub hold: Option<Hold>,
-    /// The player's input that a waveform has.
+    /// Index of the player's input that the sound occupies, if it is a waveform.
     pub input: Option<usize>,
-    /// Whether the player has the newest place and level of the sound.
+    /// Whether the player has been sent the newest place and level of the sound.
     pub told: bool,
     /// Sample of the player's clock before which the sound is not begun again.
     pub again: u64,
-    /// Whether the player refuses it for what it is, not for want of room.
+    /// Whether the player refuses the sound because of its contents, not for lack of room.
     pub hopeless: bool,
 }
 
 impl Kept {
-    /// A sound that the player has not been given yet; `name` is a number that no other sound has.
+    /// A sound that has not been sent to the player yet; `name` is a number that no other sound has.
     pub fn new(sounding: Sounding, name: u64) -> Self {
         Self { sounding, name, hold: None, input: None, told: false, again: 0, hopeless: false }
     }
@@ -75,7 +75,7 @@ impl Inputs {
         Self { free: vec![true; count], leaving: Vec::new() }
     }
 
-    /// An input, if one is free.
+    /// Takes a free input, and returns its index; `None` if none is free.
     pub fn take(&mut self) -> Option<usize> {
         let input = self.free.iter().position(|free| *free)?;
         self.free[input] = false;

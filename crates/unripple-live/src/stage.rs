@@ -9,7 +9,8 @@ use unripple_core::{Phase, Point, Touch};
 use unripple_devices::{Feeler, Feeling};
 use unripple_touch::{Counts, Heard};
 
-/// Function that is given all touches and requests, and the time at which they came, in s of the device's clock.
+/// Function that is called with new touches and requests, and with the time at which they came, in s of the
+/// device's clock.
 pub type Listener = Box<dyn FnMut(f64, &Heard) + Send>;
 
 /// The part of live play outside the audio thread: touches, effects, what fingers feel, drift of the tension.
@@ -82,7 +83,7 @@ impl Stage {
         self.feeler.as_mut().map_or_else(Vec::new, Feeler::look)
     }
 
-    /// Whether what fingers feel is known: on a virtual surface alone.
+    /// Whether what fingers feel is computed, which is possible only on a virtual surface.
     pub fn tells_feelings(&self) -> bool {
         self.feeler.is_some()
     }
@@ -117,7 +118,7 @@ impl Stage {
         &self.computing
     }
 
-    /// Time played, in s.
+    /// Duration played so far, in s.
     pub fn time(&self) -> f64 {
         self.clock as f64 / self.rate
     }

@@ -38,7 +38,7 @@ pub(crate) struct Timeline {
 }
 
 impl Timeline {
-    /// A timeline of which no sample has left yet, at `rate` samples per second.
+    /// A timeline before any sample has left the device, at `rate` samples per second.
     pub fn new(rate: f64) -> Self {
         Self {
             base: Instant::now(),
@@ -72,9 +72,10 @@ impl Timeline {
         self.next.store(next, Ordering::Release);
     }
 
-    /// The sample that leaves at an instant, in s of the player's clock. It is at most one cycle after the first
-    /// sample that is not computed yet, however long the device stands still. Touches that come meanwhile stay
-    /// distinct: each is timed a sample after the one before, for another cycle at most.
+    /// The time, in s of the player's clock, of the sample that leaves the device at an instant. It is at
+    /// most one cycle after the first sample that is not computed yet, however long the device stands still.
+    /// Touches that come meanwhile stay distinct: each is timed a sample after the one before, for another
+    /// cycle at most.
     pub fn at(&self, instant: Instant) -> f64 {
         let next = self.next.load(Ordering::Acquire) as f64 / self.rate;
         let ahead = self.period() as f64 / self.rate;
@@ -88,8 +89,8 @@ impl Timeline {
         }
     }
 
-    /// Instant at which a sample left, or will leave if the device goes on as before; the base if its cycle is no
-    /// longer remembered.
+    /// Instant at which a sample left, or will leave if the device continues at its pace; the start of the
+    /// timeline if the cycle of the sample is no longer remembered.
     pub fn leaves(&self, sample: u64) -> Instant {
         self.known(sample).unwrap_or(self.base)
     }
@@ -105,7 +106,7 @@ impl Timeline {
         Some(self.base + Duration::from_nanos(u64::try_from(after).unwrap_or(0)))
     }
 
-    /// Records touches that came at an instant, and are timed as at `now`, in s of the player's clock.
+    /// Records that touches, timed as at `now` (s of the player's clock), came at the instant `at`.
     pub fn note(&self, now: f64, at: Instant) {
         let sample = (now * self.rate).round() as u64;
         self.fresh.fetch_max(sample + 1, Ordering::AcqRel);
@@ -117,8 +118,9 @@ impl Timeline {
         }
     }
 
-    /// Time in s from the arrival of a touch that was timed by a sample until another sample leaves, including any
-    /// gap of the device between them. NaN once either is no longer remembered.
+    /// Time in s from the arrival of the touch timed by the sample `touch` until the sample `sample` leaves
+    /// the device, including any gap of the device between them. NaN once one of the two is no longer
+    /// remembered.
     pub fn between(&self, touch: u64, sample: u64) -> f64 {
         let noted =
             self.came.lock().ok().and_then(|came| came.iter().find(|(timed, _)| *timed == touch).copied());
@@ -132,7 +134,8 @@ impl Timeline {
         self.period.load(Ordering::Acquire)
     }
 
-    /// Whether a thread wants to be woken now that samples before `next` are computed; true only once.
+    /// Whether a thread has requested to be woken, now that the samples before `next` are computed; true
+    /// only once.
     pub fn rings(&self, next: u64) -> bool {
         let rings = next >= self.wake.load(Ordering::Acquire);
         if rings {
@@ -141,7 +144,7 @@ impl Timeline {
         rings
     }
 
-    /// Asks to be woken once all samples before `sample` are computed.
+    /// Requests that the waiting thread be woken once all samples before `sample` are computed.
     pub fn wake_at(&self, sample: u64) {
         self.wake.store(sample, Ordering::Release);
     }

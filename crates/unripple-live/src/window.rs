@@ -46,8 +46,8 @@ impl Window {
         Self::prompt_and(surface, longest, None).0
     }
 
-    /// The window of [`Window::prompt_within`], and the window of `asked` s, or the first again if `None`. The modes
-    /// are computed only once for both.
+    /// The window of [`Window::prompt_within`], and a second window of `asked` s, which equals the first if
+    /// `asked` is `None`. The modes are computed only once for both.
     pub fn prompt_and(surface: &Surface, longest: f64, asked: Option<f64>) -> (Self, Self) {
         let windows = Windows::of(surface);
         let prompt = Self::among(&windows, windows.shortest(WORTH).seconds.min(longest), longest);

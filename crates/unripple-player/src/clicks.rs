@@ -37,7 +37,8 @@ impl Clicks {
         Self { block, last: vec![0.0; outputs], expected: Vec::new() }
     }
 
-    /// Announces a drive that starts at sample `start` of the clock with this gain, a factor.
+    /// Announces a drive that starts at sample `start` of the player's clock, multiplied by `gain`, so that
+    /// its steps are not counted as clicks.
     pub fn expect(&mut self, drive: &Prepared, gain: f32, start: u64) {
         let steps = (0..drive.outputs()).map(|output| {
             let channel = drive.channel(output);

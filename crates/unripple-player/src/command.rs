@@ -3,8 +3,9 @@
 use crate::{Prepared, PreparedFilters};
 use std::sync::Arc;
 
-/// A number by which the sender refers to a drive or waveform that it starts, in changes and reports. Starting a
-/// repeating voice under the name of another replaces that one.
+/// A number, chosen by the sender for a drive or waveform that it starts, by which later commands and
+/// reports refer to it. Starting a repeating drive with the number of one that repeats already replaces that
+/// one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Voice(pub u64);
 
@@ -24,11 +25,11 @@ pub enum At {
 pub enum Command {
     /// Starts a drive: once, as a comb or as a loop.
     Start {
-        /// Name by which the voice is changed and reported.
+        /// Number of the voice, by which later commands and reports refer to it.
         voice: Voice,
         /// The drive that is played.
         drive: Arc<Prepared>,
-        /// When its first sample is emitted.
+        /// When the first sample of the drive is emitted.
         at: At,
         /// Factor on the drive; the limiter may lower it.
         gain: f32,
@@ -40,7 +41,7 @@ pub enum Command {
     /// the old one that have begun play to their end. Passes of a loop overlap by its fade, so this is a crossfade of
     /// that length.
     Swap {
-        /// Name of the comb or loop.
+        /// Voice number of the comb or loop.
         voice: Voice,
         /// The new drive. A comb keeps its period.
         drive: Arc<Prepared>,
@@ -49,15 +50,16 @@ pub enum Command {
     },
     /// Gives the copies of a comb or loop that start at or after `at` another gain.
     Gain {
-        /// Name of the comb or loop.
+        /// Voice number of the comb or loop.
         voice: Voice,
         /// Factor on the drive; the limiter may lower it.
         gain: f32,
         /// Copies that start from here on have the new gain.
         at: At,
     },
-    /// Gives an input its responses to all outputs. Samples that entered before are convolved with the old responses to
-    /// their end; those that enter during the fade go through both, with weights that change linearly from old to new.
+    /// Sets the impulse responses from an input to all outputs. Samples that entered the input before are
+    /// convolved with the old responses to their end; those that enter during the fade are convolved with
+    /// both, with weights that change linearly from old to new.
     SetFilters {
         /// Index of the input.
         input: usize,
@@ -65,24 +67,24 @@ pub enum Command {
         filters: Arc<PreparedFilters>,
         /// When the fade begins: with the block that holds this sample.
         at: At,
-        /// Length of the fade in samples, rounded up to whole blocks, at least one.
+        /// Length of the fade in samples: rounded up to whole blocks, and at least one block.
         fade: u32,
     },
     /// Plays a prepared waveform into an input.
     Wave {
-        /// Name by which the waveform is reported.
+        /// Voice number by which reports refer to the waveform.
         voice: Voice,
         /// Index of the input.
         input: usize,
-        /// Responses that the input gets for this waveform, and the length in samples of the fade from its present
-        /// ones. If the filters have to be refused, so is the waveform. When the waveform is over, the input has no
-        /// responses. `None` leaves those of the input as they are.
+        /// Responses that the input uses for this waveform, and the length in samples of the cross-fade from
+        /// its present responses. If these responses are refused, so is the waveform; after the waveform has
+        /// ended, the input has no responses. With `None`, the input keeps its present responses.
         filters: Option<(Arc<PreparedFilters>, u32)>,
-        /// The waveform, at the full rate.
+        /// Samples of the waveform, at the player's sample rate.
         samples: Arc<[f32]>,
-        /// When its first sample enters.
+        /// When the first sample of the waveform enters the input.
         at: At,
-        /// Factor on the waveform.
+        /// Factor on the waveform, before limiting.
         gain: f32,
         /// Whether the waveform is repeated until it is ended, or played once.
         looped: bool,
@@ -101,7 +103,7 @@ impl Command {
         }
     }
 
-    /// Whether the command begins something that goes on until it is ended.
+    /// Whether the command begins a comb, loop or looped waveform, which plays until it is ended.
     pub(crate) fn goes_on(&self) -> bool {
         match self {
             Self::Start { drive, period, .. } => period.is_some() || drive.every().is_some(),
@@ -110,7 +112,7 @@ impl Command {
         }
     }
 
-    /// Whether the command begins something that is over by itself.
+    /// Whether the command begins a drive or waveform that is played once.
     pub(crate) fn is_passing(&self) -> bool {
         matches!(self, Self::Start { .. } | Self::Wave { .. }) && !self.goes_on()
     }
@@ -132,29 +134,29 @@ impl Command {
 pub enum Report {
     /// A copy of a drive, or a waveform, starts.
     Started {
-        /// Name of the voice.
+        /// Number of the voice.
         voice: Voice,
         /// Sample of the clock at which it starts.
         sample: u64,
-        /// Factor that it starts with, after limiting.
+        /// Gain with which it starts, after limiting.
         gain: f32,
     },
     /// The last copy of a voice, or a waveform, has ended.
     Ended {
-        /// Name of the voice.
+        /// Number of the voice.
         voice: Voice,
-        /// First sample of silence.
+        /// First sample of the player's clock at which the voice is silent.
         sample: u64,
     },
-    /// A copy of a drive was scaled down as a whole, to stay within a limit.
+    /// A copy of a drive was scaled down as a whole, to stay within a limit of an actuator.
     Limited {
-        /// Name of the voice.
+        /// Number of the voice.
         voice: Voice,
-        /// Factor by which the gain asked for was reduced, below 1.
+        /// Ratio of the gain after limiting to the gain requested, below 1.
         scale: f32,
-        /// The limit that decided.
+        /// Kind of limit that required the reduction.
         which: Which,
-        /// Index of the actuator.
+        /// Index of the actuator whose limit it is.
         output: usize,
     },
     /// The common gain of all waveforms begins to be reduced, to stay within a limit.
@@ -163,21 +165,22 @@ pub enum Report {
         sample: u64,
         /// The common gain at the end of that block, below 1.
         gain: f32,
-        /// The limit that decided.
+        /// Kind of limit that required the reduction.
         which: Which,
-        /// Index of the actuator.
+        /// Index of the actuator whose limit it is.
         output: usize,
     },
-    /// A command acts later than asked for: its sample had passed, or its block was full of work.
+    /// A command acts later than requested: its sample had passed already, or the work allowed in its block
+    /// was used up.
     Late {
-        /// Name of the voice; none for filters.
+        /// Number of the voice; `None` for filters.
         voice: Option<Voice>,
-        /// Delay in samples.
+        /// Delay of the command's action, in samples.
         by: u64,
     },
     /// A command was refused: nothing was done.
     Refused {
-        /// Name of the voice; none for filters.
+        /// Number of the voice; `None` for filters.
         voice: Option<Voice>,
         /// The reason; [`Why::may_pass`] says whether the command may succeed later.
         why: Why,
@@ -195,29 +198,31 @@ pub enum Which {
     Thermal,
 }
 
-/// Reason for which a command was refused.
+/// Reason why a command was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// The largest number of voices is repeating already.
+    /// The largest number of repeating voices, [`Options::voices`](crate::Options::voices), or of holds is
+    /// reached.
     Voices,
-    /// The largest number of copies or waveforms is sounding already.
+    /// The largest number of copies of drives, or of waveforms, is being played already.
     Copies,
-    /// The largest number of commands is waiting for its sample already.
+    /// The largest number of commands that can wait for their sample is waiting already.
     Pending,
-    /// No repeating voice has this name.
+    /// No repeating voice has this number.
     Unknown,
-    /// A drive has another number of outputs than the player, or filters are of another plan.
+    /// The drive's number of outputs differs from the player's, or the filters were not prepared with a plan
+    /// of the player's sizes.
     Outputs,
-    /// A drive is longer than [`Options::longest`](crate::Options::longest), or a waveform is empty.
+    /// The drive is longer than [`Options::longest`](crate::Options::longest), or the waveform is empty.
     Samples,
     /// The gain is not a finite number.
     Gain,
     /// The period is shorter than a block, or not a number.
     Period,
-    /// The player has no such input, or no waveforms at all.
+    /// The player has no input of this index, or was made without inputs for waveforms.
     Input,
-    /// The command is out of date: taken back with [`Desk::withdraw`](crate::Desk::withdraw), no longer held when it
-    /// should begin, or put off for longer than its drive lasts.
+    /// The command is out of date: it was cancelled with [`Desk::withdraw`](crate::Desk::withdraw), its hold
+    /// was released before it began, or its start was postponed for longer than its drive lasts.
     Stale,
 }
 

@@ -1,13 +1,13 @@
-//! Drives that sound now, and their fades.
+//! Drives that are being played, and their fades.
 
 use crate::origin::Whose;
 use crate::shelf::Shelf;
 use crate::{Prepared, kernels};
 
-/// A copy of a drive that sounds now.
+/// A copy of a drive that is being played.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sounding {
-    /// Voice and command that it goes back to.
+    /// The voice, and the command that started it.
     pub(crate) whose: Whose,
     /// Index of its drive on the shelf.
     pub(crate) drive: usize,
@@ -48,8 +48,8 @@ impl Fade {
         self.from + u64::from(self.length)
     }
 
-    /// The fade over `length` samples that begins at sample `from` where this one may be under way: whichever
-    /// ends first.
+    /// A fade over `length` samples that begins at sample `from`, or the fade `held` that is already under
+    /// way, whichever ends first.
     pub(crate) fn after(held: Option<Self>, from: u64, length: u32) -> Self {
         let level = held.map_or(1.0, |held| held.weight(from.saturating_sub(1)));
         let fade = Self { from, length, level };

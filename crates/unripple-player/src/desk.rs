@@ -14,15 +14,15 @@ pub struct Desk {
     pub(crate) commands: Producer<Sent>,
     /// Commands sent so far.
     pub(crate) sent: u64,
-    /// Reports on their way from it.
+    /// Reports on their way from the player.
     pub(crate) reports: Consumer<Report>,
-    /// What is to be freed here.
+    /// Memory that is to be freed on this thread.
     pub(crate) garbage: Consumer<Garbage>,
     /// Rings of samples, one per input.
     pub(crate) feeds: Vec<Producer<f32>>,
     /// The plan with which responses are prepared; `None` without waveforms.
     pub(crate) plan: Option<FilterPlan>,
-    /// What is counted.
+    /// Counters and meters of the player.
     pub(crate) meters: Arc<Meters>,
     /// Requests that concern the player as a whole.
     pub(crate) standing: Arc<Standing>,
@@ -36,7 +36,7 @@ pub struct Desk {
 pub(crate) struct Sent {
     /// Number of the command: how many were sent so far, this one included.
     pub(crate) id: u64,
-    /// What is asked for.
+    /// The command itself.
     pub(crate) command: Command,
     /// The hold that keeps it playing, if it does not end by itself.
     pub(crate) held: Option<Arc<Held>>,
@@ -61,8 +61,8 @@ impl Desk {
         self.push(command, None)
     }
 
-    /// Sends a command that begins a drive or waveform, which plays until the hold is stopped or dropped, or until it
-    /// ends by itself.
+    /// Sends a command that begins a drive or waveform, which plays until the returned hold is stopped or
+    /// dropped, or until it ends by itself.
     ///
     /// # Errors
     /// The command itself if the ring to the player is full.
@@ -71,7 +71,7 @@ impl Desk {
         self.push(command, Some(held.clone())).map(|()| Hold(held))
     }
 
-    /// Sends a command with its number; gives it back if there is no room.
+    /// Sends a command with its number; returns it if there is no room.
     fn push(&mut self, command: Command, held: Option<Arc<Held>>) -> Result<(), Box<Command>> {
         self.collect();
         let sent = Sent { id: self.sent + 1, command, held };
@@ -90,14 +90,15 @@ impl Desk {
         self.commands.slots()
     }
 
-    /// Takes back all drives and waveforms played once that were sent so far and have not begun: for a player that
-    /// stood still, so that nothing begins that is out of date.
+    /// Cancels all commands sent so far that play a drive or waveform once and have not begun. After a time
+    /// in which the player stood still, this prevents drives that are out of date from being played.
     pub fn withdraw(&mut self) {
         self.standing.withdraw(self.sent);
     }
 
-    /// Ends the player: everything fades out over `fade` samples, at least a block, and then it is silent. Commands
-    /// that wait do not begin, and later ones are not taken. A player whose desk is dropped ends in the same way.
+    /// Ends the player: everything fades out over `fade` samples (at least a block), and from then on the
+    /// output is silent. Commands that wait do not begin, and later ones are not accepted. A player whose
+    /// desk is dropped ends in the same way.
     pub fn end(&mut self, fade: u32) {
         self.standing.end(fade);
     }
@@ -107,7 +108,7 @@ impl Desk {
         self.standing.is_over()
     }
 
-    /// The next report, if there is one.
+    /// The next report of the player; `None` if there is none.
     pub fn report(&mut self) -> Option<Report> {
         self.collect();
         self.reports.pop().ok()
@@ -118,8 +119,8 @@ impl Desk {
         while self.garbage.pop().is_ok() {}
     }
 
-    /// Puts samples (at the full rate) into the ring buffer of an input, by its index, and returns for how many there
-    /// was room. An input whose ring runs empty is silent.
+    /// Puts samples (at the player's sample rate) into the ring buffer of an input, by its index, and
+    /// returns how many of them found room. An input whose ring buffer runs empty is silent.
     pub fn feed(&mut self, input: usize, samples: &[f32]) -> usize {
         let Some(ring) = self.feeds.get_mut(input) else { return 0 };
         samples.iter().take_while(|&&x| ring.push(x).is_ok()).count()
@@ -141,12 +142,12 @@ impl Desk {
         self.plan.as_ref()
     }
 
-    /// Delay in samples from an input to the outputs, besides that of the responses themselves.
+    /// Delay in samples from an input to the outputs, in addition to that of the impulse responses.
     pub fn wave_delay(&self) -> usize {
         self.wave_delay
     }
 
-    /// Whether a drive has as many outputs as the player.
+    /// Whether a drive has the same number of outputs as the player.
     pub fn fits(&self, drive: &Prepared) -> bool {
         drive.outputs() == self.outputs
     }

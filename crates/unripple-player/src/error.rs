@@ -11,7 +11,7 @@ pub enum PlayerError {
     /// Two sizes that must agree do not.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
-        /// What is counted.
+        /// Name of the size that differs.
         what: &'static str,
         /// How many there should be.
         expected: usize,
@@ -34,7 +34,8 @@ pub enum PlayerError {
     },
 }
 
-/// Largest magnitude of a sample that is taken: products of two still are far within float32.
+/// Largest magnitude of a sample that is accepted: the product of two such samples is still far within the
+/// range of float32.
 pub(crate) const HUGE: f32 = 1e12;
 
 /// A typed error unless a count is within its bounds.

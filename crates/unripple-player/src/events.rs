@@ -1,4 +1,5 @@
-//! Drives in the player: those that repeat, those that sound, and the ledger of what has been started.
+//! Drives in the player: those that repeat, those that are being played, and the ledger of what has been
+//! started.
 
 use crate::copies::{Fade, Sounding};
 use crate::kernels::Wide;
@@ -15,7 +16,7 @@ use std::sync::Arc;
 /// With twice this value, room that was given up is free again in half the time.
 const REFILLS: u64 = 4;
 
-/// Drives: those that repeat, those that sound, and the ledger of what is committed.
+/// The drives that repeat and those that are being played, and the ledger of what has been started.
 pub(crate) struct Events {
     shelf: Shelf<Prepared>,
     repeating: Vec<Repeating>,
@@ -56,7 +57,7 @@ struct PutOff {
 }
 
 impl Events {
-    /// Nothing that sounds yet, with room for what the options allow.
+    /// No drives yet, with memory for as many as the options allow.
     pub(crate) fn new(options: &Options) -> Self {
         Self {
             shelf: Shelf::new(Self::places(options)),
@@ -77,7 +78,8 @@ impl Events {
         options.voices + 2 * options.copies + 2
     }
 
-    /// Begins, at sample `clock`, the copies for which the block before had no time.
+    /// Begins, at sample `clock`, the copies that were postponed because the block before had no time for
+    /// them.
     pub(crate) fn resume(&mut self, clock: u64, outlet: &mut Outlet) {
         self.left = self.options.work;
         for _ in 0..self.put_off.len() {
@@ -98,7 +100,8 @@ impl Events {
         }
     }
 
-    /// Starts a drive at a sample of the clock; whether anything came of it.
+    /// Starts a drive at a sample of the clock; returns whether a copy or repetition of it has been
+    /// accepted.
     pub(crate) fn start(
         &mut self,
         (whose, drive): (Whose, Arc<Prepared>),

@@ -34,8 +34,8 @@ const RING: u32 = u32::MAX;
 pub struct Hold(pub(crate) Arc<Held>);
 
 impl Hold {
-    /// Ends the sound from a sample on, with a fade of `fade` samples, at least a block. With `None`, copies of a drive
-    /// that have begun play to their end.
+    /// Ends the drive or waveform from a sample on, with a fade-out of `fade` samples (at least a block).
+    /// With `None`, copies of a drive that have begun play to their end.
     pub fn stop(&self, at: At, fade: Option<u32>) {
         let until = match at {
             At::Now => 0,
@@ -50,8 +50,8 @@ impl Hold {
         self.0.until() != NEVER
     }
 
-    /// A sample of the clock from which on it is silent, once the player has reported it: it was stopped, ended by
-    /// itself, or was refused.
+    /// Sample of the player's clock from which on the drive or waveform is silent, because it was stopped,
+    /// ended by itself or was refused; `None` until the player has reported that.
     pub fn over(&self) -> Option<u64> {
         Some(self.0.over.load(Acquire)).filter(|over| *over != NEVER)
     }
@@ -76,22 +76,22 @@ pub(crate) struct Held {
 }
 
 impl Held {
-    /// Held without end, and not over yet.
+    /// A hold that has been neither stopped nor reported as over.
     pub(crate) fn new() -> Self {
         Self { until: AtomicU64::new(NEVER), fade: AtomicU32::new(RING), over: AtomicU64::new(NEVER) }
     }
 
-    /// Sample of the clock from which on it is to be ended.
+    /// Sample of the clock from which on the drive or waveform is to be ended.
     pub(crate) fn until(&self) -> u64 {
         self.until.load(Acquire)
     }
 
-    /// Samples of its fade; `None` to let begun copies play to their end.
+    /// Length of the fade-out in samples; `None` to let begun copies play to their end.
     pub(crate) fn fade(&self) -> Option<u32> {
         Some(self.fade.load(Relaxed)).filter(|fade| *fade != RING)
     }
 
-    /// Sets the sample from which on it is silent.
+    /// Sets the sample from which on the drive or waveform is silent.
     pub(crate) fn set_over(&self, sample: u64) {
         self.over.store(sample.min(NEVER - 1), Release);
     }

@@ -1,4 +1,5 @@
-//! Sums of what has been started, for each actuator and future sample, and how much of the limits they take.
+//! Sums of what has been started, for each actuator and future sample, and the share of the actuators'
+//! limits that these sums use.
 //!
 //! Voices add. For each actuator and future sample the ledger holds the sum of all positive parts, P, and of all negative
 //! parts, N, of what has been started (gains included). Whatever weights from 0 to 1 fading gives the parts from then on, their sum
@@ -32,12 +33,12 @@ pub(crate) struct Ledger {
     powers: Powers,
 }
 
-/// The gain that a drive gets, and what kept it from more.
+/// The gain that a drive is given, and the limit that kept it from a higher one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Verdict {
-    /// The gain that it gets.
+    /// The gain that the drive is given.
     pub(crate) gain: f32,
-    /// The limit and the output that kept it from more.
+    /// The limit and the output that kept the gain from being higher; `None` if none did.
     pub(crate) by: Option<(Which, usize)>,
 }
 

@@ -24,11 +24,11 @@ pub enum Count {
     Started,
     /// Copies of drives that were scaled down to stay within a limit.
     Limited,
-    /// Blocks in which the gain of waveforms was held down by a limit.
+    /// Blocks in which the gain of waveforms was reduced by a limit.
     WavesLimited,
-    /// Commands and starts that acted later than asked for.
+    /// Commands and starts that acted later than requested.
     Late,
-    /// Starts that were put off because their block was full of work.
+    /// Starts that were postponed to a later block because the work allowed in their block was used up.
     PutOff,
     /// Commands that were refused.
     Refused,
@@ -59,8 +59,8 @@ impl Meters {
         self.clock.load(Relaxed)
     }
 
-    /// Whether the last block was silent and nothing that the player knows of is to come: no drive sounds, repeats or
-    /// waits, and the responses to waveforms have ended.
+    /// Whether the last block was silent and no sound is due: no drive is playing, repeating or waiting, and
+    /// the responses to waveforms have ended.
     pub fn is_silent(&self) -> bool {
         self.silent.load(Relaxed)
     }
@@ -82,18 +82,19 @@ impl Meters {
         f32::from_bits(self.wave_gain.load(Relaxed))
     }
 
-    /// Largest magnitude that an output, by its index, emitted since the last call, in its unit.
+    /// Largest magnitude of a sample that the output of this index has emitted since the last call of this
+    /// function, in the actuator's unit.
     pub fn take_peak(&self, output: usize) -> f32 {
         self.peaks.get(output).map_or(0.0, |peak| f32::from_bits(peak.swap(0, Relaxed)))
     }
 
-    /// Running rms of an output, by its index, after the last block, as a share of its limit: the largest over its rms
-    /// limits; 0 without such limits.
+    /// Running rms of the output of this index after the last block, as a share of its limit; with a
+    /// short-term and a thermal limit, the larger share. 0 without such limits.
     pub fn heat(&self, output: usize) -> f32 {
         self.heats.get(output).map_or(0.0, |heat| f32::from_bits(heat.load(Relaxed)))
     }
 
-    /// Number of events of a kind so far.
+    /// Number of events of a kind since the player was made.
     pub fn count(&self, what: Count) -> u64 {
         self.counts[what as usize].load(Relaxed)
     }

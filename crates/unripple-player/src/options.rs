@@ -1,10 +1,10 @@
-//! Options of a player: sizes, limits and bounds on its work.
+//! Options of a player: sizes, limits of actuators, and bounds on the work in a block.
 
 use crate::PlayerError;
 use crate::error::{count, same};
 use unripple_core::require;
 
-/// Options of a player. All memory for them is allocated once, when it is made.
+/// Options of a player. All memory that they call for is allocated once, when the player is made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Number of outputs, one per actuator.
@@ -21,9 +21,9 @@ pub struct Options {
     pub copies: usize,
     /// Length of the longest drive, in samples.
     pub longest: usize,
-    /// Largest number of samples (over all outputs) of drives that are compared with the limits in one block: the bound
-    /// on its work, at some 2 ns each. Starts beyond it wait for the next block, and are reported late; one drive a
-    /// block is taken, however long.
+    /// Largest number of samples (over all outputs) of drives that are compared with the limits in one
+    /// block: the bound on its work, at some 2 ns each. Starts beyond this bound wait for the next block and
+    /// are reported as late, but one drive can always start in a block, however long it is.
     pub work: usize,
     /// Inputs for continuous waveforms; `None` for a player without them.
     pub waves: Option<WaveOptions>,
@@ -79,11 +79,11 @@ pub struct Running {
 /// Options of continuous waveforms, where each input is convolved into all outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaveOptions {
-    /// Number of inputs: waveforms can be played at as many points at once.
+    /// Number of inputs, which is the number of points at which waveforms can be played at once.
     pub inputs: usize,
     /// Length of the longest response, in samples at the full rate.
     pub taps: usize,
-    /// Highest frequency that is kept, in Hz: the top of the band.
+    /// Highest frequency of waveforms that is played, in Hz: the top of the band.
     pub band_top_hz: f64,
     /// Size of each input's ring buffer, in samples.
     pub feed: usize,
@@ -103,7 +103,7 @@ impl Default for WaveOptions {
 const MOST: usize = 1 << 20;
 
 impl Options {
-    /// The limit of an output, by its index, in its unit.
+    /// The limits of the output of this index, in the actuator's unit.
     pub fn limit(&self, output: usize) -> Limit {
         let which = if self.limits.len() == 1 { 0 } else { output };
         self.limits.get(which).copied().unwrap_or_default()

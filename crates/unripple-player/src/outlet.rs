@@ -27,7 +27,8 @@ impl Outlet {
         Self { reports, garbage, trash: Vec::with_capacity(2 * held + 2), most: held, meters }
     }
 
-    /// Whether a command may come in: then all it could leave behind still finds room.
+    /// Whether another command can be accepted: everything that it may have to send back will still find
+    /// room.
     pub(crate) fn is_open(&mut self) -> bool {
         while let Some(garbage) = self.trash.pop() {
             if let Err(rtrb::PushError::Full(garbage)) = self.garbage.push(garbage) {

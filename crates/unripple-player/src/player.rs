@@ -19,8 +19,8 @@ use std::sync::Arc;
 /// sounds for as much longer.
 const ABANDONED: f64 = 0.02;
 
-/// The end of a player that runs on the audio thread: computes blocks from commands. It never allocates, frees, locks,
-/// waits or fails.
+/// The side of a player that runs on the audio thread: computes blocks of samples from commands. It never
+/// allocates, frees, locks, waits or fails.
 pub struct Player {
     block: usize,
     outputs: usize,
@@ -111,8 +111,9 @@ pub fn player(options: &Options) -> Result<(Player, Desk), PlayerError> {
 }
 
 impl Player {
-    /// Computes the next block: planar, output after output, in the actuators' unit. A slice of a wrong size is filled
-    /// with silence and counted, and the clock does not advance.
+    /// Computes the next block, planar (all samples of one output, then those of the next), in the
+    /// actuators' unit. If the slice has a wrong size, it is filled with silence and counted, and the clock
+    /// does not advance.
     pub fn process(&mut self, out: &mut [f32]) {
         out.fill(0.0);
         if out.len() != self.outputs * self.block {
@@ -190,7 +191,7 @@ impl Player {
         &self.outlet.meters
     }
 
-    /// Takes in what was sent before this block.
+    /// Receives the commands that were sent before this block.
     fn take_commands(&mut self) {
         for _ in 0..self.commands.slots() {
             if !self.outlet.is_open() {
@@ -271,7 +272,7 @@ impl Player {
         begun
     }
 
-    /// Carries out a command; whether it began something.
+    /// Carries out a command; returns whether it began a drive or waveform.
     fn obey(&mut self, sample: u64, id: u64, command: Command) -> bool {
         let (events, outlet) = (&mut self.events, &mut self.outlet);
         match command {
@@ -321,7 +322,7 @@ impl Player {
         }
     }
 
-    /// Tells that what was held never began.
+    /// Marks a hold as over whose drive or waveform never began.
     fn forget(&mut self, held: Arc<Held>) {
         held.set_over(self.clock);
         self.outlet.discard(Garbage::Held(held));

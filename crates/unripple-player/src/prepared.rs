@@ -1,10 +1,10 @@
-//! A drive made ready for the audio thread.
+//! A drive in the form in which the audio thread plays it.
 
 use crate::PlayerError;
 use crate::error::{count, playable, same};
 use unripple_core::Drive;
 
-/// A drive made ready for the audio thread: all samples known and finite.
+/// A drive in the form in which the audio thread plays it: planar float32 samples, all of them finite.
 ///
 /// ```
 /// use unripple_player::Prepared;
@@ -37,7 +37,7 @@ impl Prepared {
         Ok(Self { outputs, samples, data, every: None })
     }
 
-    /// A drive from a [`Drive`], rounded to float32 as devices emit it.
+    /// A drive from a [`Drive`], with its samples rounded to float32 as devices emit them.
     ///
     /// # Errors
     /// As [`Prepared::new`].
@@ -72,7 +72,7 @@ impl Prepared {
         self.outputs
     }
 
-    /// Number of samples in each channel; for a loop, one pass and a fade.
+    /// Number of samples in each channel; for a loop, those of one pass and one fade.
     pub fn samples(&self) -> usize {
         self.samples
     }

@@ -47,7 +47,7 @@ impl Schedule {
         Self { heap: BinaryHeap::with_capacity(most), most }
     }
 
-    /// Lets a command wait for a sample of the clock; gives it back if as many wait as may.
+    /// Queues a command until a sample of the clock; returns the command if the queue is full.
     pub(crate) fn push(&mut self, sample: u64, sent: Sent) -> Result<(), Sent> {
         if self.heap.len() >= self.most {
             return Err(sent);
@@ -61,12 +61,12 @@ impl Schedule {
         self.heap.is_empty()
     }
 
-    /// The sample of the next.
+    /// The sample at which the first command in the queue acts.
     pub(crate) fn next(&self) -> Option<u64> {
         self.heap.peek().map(|Reverse(waiting)| waiting.sample)
     }
 
-    /// Takes the next, with the sample at which it acts.
+    /// Removes the first command from the queue, and returns it with the sample at which it acts.
     pub(crate) fn pop(&mut self) -> Option<(u64, Sent)> {
         self.heap.pop().map(|Reverse(waiting)| (waiting.sample, waiting.sent))
     }

@@ -4,7 +4,7 @@ use crate::hold::Held;
 use crate::{Prepared, PreparedFilters};
 use std::sync::Arc;
 
-/// What is sent back to the desk to be freed there.
+/// Data that are sent back to the desk to be freed there.
 #[derive(Debug)]
 #[expect(dead_code, reason = "held to be dropped")]
 pub(crate) enum Garbage {
@@ -30,7 +30,7 @@ impl<T: ?Sized> Shelf<T> {
         Self { places: (0..places).map(|_| None).collect(), free: (0..places).rev().collect() }
     }
 
-    /// Takes data in with one use, and returns its index; gives it back if there is no place.
+    /// Stores data with one use, and returns their index; returns the data if there is no place.
     pub(crate) fn put(&mut self, data: Arc<T>) -> Result<usize, Arc<T>> {
         match self.free.pop() {
             Some(place) => {

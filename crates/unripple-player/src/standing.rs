@@ -10,17 +10,17 @@ pub(crate) struct Standing {
     withdrawn: AtomicU64,
     /// Samples over which everything is to fade out for good; 0 while the player is to go on.
     fade: AtomicU32,
-    /// Said by the player: it has faded out.
+    /// Set by the player when it has faded out.
     over: AtomicBool,
 }
 
 impl Standing {
-    /// Takes back what was sent with numbers up to `number`.
+    /// Cancels the commands with numbers up to `number`.
     pub(crate) fn withdraw(&self, number: u64) {
         self.withdrawn.store(number, Release);
     }
 
-    /// The number up to which all was taken back.
+    /// Largest number of a cancelled command.
     pub(crate) fn withdrawn(&self) -> u64 {
         self.withdrawn.load(Acquire)
     }
@@ -30,7 +30,7 @@ impl Standing {
         self.fade.store(fade.max(1), Release);
     }
 
-    /// Samples of the fade that was asked for, if the player is to end.
+    /// Samples of the requested fade-out; `None` while the player is to go on.
     pub(crate) fn ending(&self) -> Option<u32> {
         Some(self.fade.load(Acquire)).filter(|fade| *fade > 0)
     }

@@ -28,12 +28,13 @@ pub struct Axis {
     pub scale: Scale,
     /// Factor from data to the numbers shown: 1e3 for data in seconds on an axis in milliseconds.
     pub multiplier: f64,
-    /// Low end of the axis, in the data's unit; from the data if absent.
+    /// Low end of the axis, in the data's unit; determined from the data if absent.
     pub low: Option<f64>,
-    /// High end of the axis, in the data's unit; from the data if absent.
+    /// High end of the axis, in the data's unit; determined from the data if absent.
     pub high: Option<f64>,
-    /// Names of the values 0, 1, 2 and so on, for an axis of things, which is linear; none for one of numbers. Where there is no room for
-    /// all, every second, third and so on is written; a long one is written without its middle.
+    /// Names written at the values 0, 1, 2 and so on, for an axis whose values stand for named things, and
+    /// which is linear; empty for an axis of numbers. If there is no room for all names, every second, third
+    /// and so on is written; a long name is written without its middle.
     pub names: Vec<String>,
 }
 
@@ -61,7 +62,8 @@ impl Axis {
         Self { label: label.into(), scale: Scale::Logarithmic, ..Self::default() }
     }
 
-    /// An axis of things, the first at the value 0, the second at 1 and so on.
+    /// A linear axis whose values stand for named things: the first name is at the value 0, the second at 1
+    /// and so on.
     pub fn named(label: impl Into<String>, names: Vec<String>) -> Self {
         Self { label: label.into(), names, ..Self::default() }
     }
@@ -100,9 +102,9 @@ pub(crate) struct Ruler {
     high: f64,
     /// Major ticks: value in the unit shown, and label.
     pub major: Vec<(f64, String)>,
-    /// Minor ticks, as values shown.
+    /// Minor ticks: values in the unit shown.
     pub minor: Vec<f64>,
-    /// The power of ten taken out of the labels.
+    /// Exponent of the power of ten that is taken out of the labels; `None` if none is.
     pub power: Option<i32>,
 }
 
@@ -123,7 +125,8 @@ pub(crate) struct Padding {
 }
 
 impl Ruler {
-    /// Fixes range and ticks of an axis for data values, over `length` points with ticks labelled at `size`.
+    /// Fixes range and ticks of an axis that is `length` points long for data values, with tick labels of
+    /// `size` points.
     ///
     /// Errors when an end is not finite, or not positive on a logarithmic axis.
     pub fn new(

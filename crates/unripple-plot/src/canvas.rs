@@ -54,7 +54,7 @@ impl Stroke {
     }
 }
 
-/// Which part of a line of text is at its place.
+/// Which part of a line of text lies at the place given for the text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Anchor {
     /// The text starts at its place.

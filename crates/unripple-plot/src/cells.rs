@@ -41,13 +41,13 @@ pub struct Cells {
     pub values: Vec<f64>,
     /// The axis of abscissae, along the columns.
     pub x: Axis,
-    /// Label of the axis of rows: what their names are.
+    /// Label of the axis of rows, which says what the names of the rows stand for.
     pub label: String,
     /// How values become colours.
     pub colours: Colours,
     /// Text above the frame, in as many lines as it takes; none if empty.
     pub title: String,
-    /// Height of the frame in millimetres; if absent, 4 per row, but from 30 to 160.
+    /// Height of the frame in millimetres; if absent, 4 mm per row, but at least 30 mm and at most 160 mm.
     pub height_mm: Option<f64>,
 }
 

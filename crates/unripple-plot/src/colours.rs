@@ -13,14 +13,14 @@ use crate::{Grid, PlotError, font};
 pub struct Colours {
     /// Title of the bar, with the unit shown, as in `Velocity (mm/s)`.
     pub title: String,
-    /// The map. A diverging one is symmetric about zero unless both ends are given, a sequential one starts at zero
-    /// unless its low end is given or values are negative.
+    /// The colour map. A diverging one is symmetric about zero unless both ends are given; a sequential one
+    /// starts at zero unless its low end is given or values are negative.
     pub map: ColourMap,
     /// Factor from values to the numbers shown: 1e3 for m/s on a bar in mm/s.
     pub multiplier: f64,
-    /// Value of the first colour, in the data's unit; from the data if absent.
+    /// Value that the first colour stands for, in the data's unit; determined from the data if absent.
     pub low: Option<f64>,
-    /// Value of the last colour, in the data's unit; from the data if absent.
+    /// Value that the last colour stands for, in the data's unit; determined from the data if absent.
     pub high: Option<f64>,
 }
 

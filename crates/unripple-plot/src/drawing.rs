@@ -44,7 +44,7 @@ impl Drawing {
         self.size
     }
 
-    /// The picture on white as a PNG file, at a resolution in dots to an inch from 20 to 2400.
+    /// The picture on white as a PNG file, at a resolution of `dpi` dots per inch, from 20 to 2400.
     ///
     /// Deterministic: the typeface is embedded and no system font is looked at. Errors when the
     /// resolution is out of range or the picture would have more than 10⁸ pixels.
@@ -81,7 +81,8 @@ impl Drawing {
     }
 }
 
-/// The picture of an SVG document on white as a PNG file, at a resolution in dots to an inch from 20 to 2400, with the embedded typeface.
+/// The picture of an SVG document on white as a PNG file, at a resolution of `dpi` dots per inch, from 20 to
+/// 2400, with the embedded typeface.
 ///
 /// ```
 /// let square = r#"<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm"/>"#;

@@ -6,15 +6,15 @@ pub enum PlotError {
     /// There is nothing to draw: no panel, no value, or no finite value.
     #[error("{what}: expected at least one finite value, found {found}")]
     Empty {
-        /// What was looked at.
+        /// Name of what has nothing to draw.
         what: String,
-        /// What was there instead, as in "3 values, none finite".
+        /// Description of what was found instead, as in "3 values, none finite".
         found: String,
     },
     /// Two sequences that go together differ in length.
     #[error("{what}: expected {expected} values, found {found}")]
     Length {
-        /// What was counted.
+        /// Name of what was counted.
         what: String,
         /// How many there should be.
         expected: usize,
@@ -24,9 +24,9 @@ pub enum PlotError {
     /// A number is outside the values it may take, such as zero on a logarithmic axis.
     #[error("{what}: expected {expected}, found {found}")]
     Range {
-        /// What the number is.
+        /// Name of the number.
         what: String,
-        /// The legal values.
+        /// Description of the values that are allowed.
         expected: &'static str,
         /// The number that was given.
         found: f64,

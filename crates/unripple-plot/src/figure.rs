@@ -22,7 +22,7 @@ use crate::{Panel, PlotError};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Width in millimetres; 85 fills a journal's single column, 178 both.
+    /// Width of the figure in millimetres: 85 fills one column of a journal, 178 two.
     pub width_mm: f64,
     /// Number of panels side by side.
     pub columns: usize,

@@ -5,9 +5,9 @@ use crate::font;
 /// A line of text in a drawing, and the box that it takes up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// The text as it was given.
+    /// The text that is written.
     pub text: String,
-    /// Upper left corner of its box, in points from that of the drawing.
+    /// Upper left corner of its box, in points from the upper left corner of the drawing.
     pub upper_left: [f64; 2],
     /// Lower right corner of its box, in points from the upper left corner of the drawing.
     pub lower_right: [f64; 2],

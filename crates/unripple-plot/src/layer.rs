@@ -32,7 +32,8 @@ impl Ink {
 /// The pattern of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dash {
-    /// A pattern of its own for each line of automatic ink, solid first; solid for others.
+    /// A different pattern for each line whose ink is [`Ink::Auto`], solid for the first; solid for lines
+    /// with any other ink.
     #[default]
     Auto,
     /// An unbroken line.
@@ -69,7 +70,7 @@ impl Dash {
 /// The shape of a point's mark.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mark {
-    /// A shape of its own for each layer of points, disc first.
+    /// A different shape for each layer of points, a disc for the first.
     #[default]
     Auto,
     /// A filled circle.
@@ -101,7 +102,7 @@ impl Mark {
 pub struct Line {
     /// Abscissae, in the axis's data unit.
     pub x: Vec<f64>,
-    /// Ordinates, as many as abscissae.
+    /// Ordinates, one for each abscissa.
     pub y: Vec<f64>,
     /// Name of the line in the legend; none if empty.
     pub label: String,
@@ -109,7 +110,7 @@ pub struct Line {
     pub ink: Ink,
     /// Pattern of the line.
     pub dash: Dash,
-    /// Width of the line in points; the figure's if absent.
+    /// Width of the line in points; the figure's width of data lines if absent.
     pub width_pt: Option<f64>,
 }
 
@@ -118,10 +119,10 @@ pub struct Line {
 pub struct Points {
     /// Abscissae, in the axis's data unit.
     pub x: Vec<f64>,
-    /// Ordinates, as many as abscissae.
+    /// Ordinates, one for each abscissa.
     pub y: Vec<f64>,
-    /// Lengths of each error bar below and above its point, in the data unit of the ordinates; empty for none, else
-    /// as many as points.
+    /// Lengths of each error bar below and above its point, in the data unit of the ordinates; one pair for
+    /// each point, or empty for no error bars.
     pub error: Vec<[f64; 2]>,
     /// Name of the points in the legend; none if empty.
     pub label: String,
@@ -136,9 +137,9 @@ pub struct Points {
 pub struct Band {
     /// Abscissae, in the axis's data unit.
     pub x: Vec<f64>,
-    /// Lower ordinates, as many as abscissae.
+    /// Lower ordinates, one for each abscissa.
     pub low: Vec<f64>,
-    /// Upper ordinates, as many as abscissae.
+    /// Upper ordinates, one for each abscissa.
     pub high: Vec<f64>,
     /// Name of the band in the legend; none if empty.
     pub label: String,
@@ -149,10 +150,10 @@ pub struct Band {
 /// Direction of a rule or a span.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Along {
-    /// At one abscissa, from bottom to top.
+    /// Parallel to the axis y: at one abscissa, from bottom to top.
     #[default]
     Y,
-    /// At one ordinate, from left to right.
+    /// Parallel to the axis x: at one ordinate, from left to right.
     X,
 }
 

@@ -31,7 +31,7 @@ use resvg::tiny_skia::Pixmap;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Movie {
-    /// The frames, on grids of one shape; captions tell the time.
+    /// The frames, all on grids of the same shape; their captions give the time.
     pub shots: Vec<Shot>,
     /// Outline of the surface, as closed polygons to which the field is clipped, in the grids' unit of length; if
     /// empty, the whole grid is shown.

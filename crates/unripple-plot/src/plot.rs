@@ -44,7 +44,7 @@ pub struct Plot {
 /// Where a legend goes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Legend {
-    /// The place inside the frame that hides no data, else above the frame.
+    /// At a place inside the frame where it hides no data; above the frame if there is none.
     #[default]
     Auto,
     /// Above the frame, in as many rows as it takes.

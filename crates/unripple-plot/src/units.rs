@@ -1,7 +1,7 @@
 //! SI prefixes for axes.
 
-/// The SI prefix for data with a given largest value: the factor to multiply the data by, and the unit with its
-/// prefix. With them the largest value is from 1 to 1000.
+/// The SI prefix for data with a given largest value: the factor to multiply the data by, and the unit with
+/// its prefix. With them, the largest value becomes a number from 1 to 1000.
 ///
 /// From pico to giga; a value of zero or one that is not finite keeps the unit as it is.
 ///

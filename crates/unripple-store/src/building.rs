@@ -28,7 +28,8 @@ pub(crate) struct Building {
 }
 
 impl Building {
-    /// A new folder beside `place`; folders above are made where missing.
+    /// Makes a new hidden folder beside `place`, its destination; parent folders that are missing are made
+    /// as well.
     pub fn beside(place: &Path) -> Result<Self, StoreError> {
         for _ in 0..TRIES {
             if let Some(building) = Self::locked(place)? {
@@ -60,7 +61,7 @@ impl Building {
         }
     }
 
-    /// The hidden folder as it is called now.
+    /// Present path of the hidden folder.
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -3,7 +3,7 @@
 /// A surface that comes with the program, as the text of its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Builtin {
-    /// Name of the surface, as [`crate::load_surface`] takes it.
+    /// Name of the surface, as it is passed to [`crate::load_surface`].
     pub name: &'static str,
     /// Text of the surface file, comments included.
     pub text: &'static str,

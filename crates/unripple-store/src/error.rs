@@ -8,30 +8,30 @@ use std::path::{Path, PathBuf};
 /// Why something could not be read or written.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum StoreError {
-    /// Something cannot be read.
+    /// A file or folder cannot be read.
     #[error("cannot read {}: {reason}", path.display())]
     Read {
         /// The file or folder that cannot be read.
         path: PathBuf,
-        /// What the system said.
+        /// The error that the system reports.
         reason: io::Error,
     },
-    /// Something cannot be written.
+    /// A file or folder cannot be written.
     #[error("cannot write to {}: {reason}", path.display())]
     Write {
         /// The file or folder that cannot be written.
         path: PathBuf,
-        /// What the system said.
+        /// The error that the system reports.
         reason: io::Error,
     },
     /// No built-in surface and no file has that name.
     #[error("no surface `{name}`: expected a file, or one of {builtins}{}", did_you_mean(nearest))]
     UnknownSurface {
-        /// The name asked for.
+        /// The name that was requested.
         name: String,
         /// Names of the built-in surfaces.
         builtins: String,
-        /// The built-in name nearest to the one asked for.
+        /// The built-in name nearest to the requested one; `None` if none is near.
         nearest: Option<String>,
     },
     /// A file of a surface or of effects has faults.
@@ -41,19 +41,19 @@ pub enum StoreError {
     /// The content of a file is not as expected.
     #[error("{file}: expected {expected}, found {found}")]
     Content {
-        /// The file as the message calls it.
+        /// Name of the file in the message.
         file: String,
-        /// What it should hold.
+        /// Description of the content that was expected.
         expected: String,
-        /// What it holds.
+        /// Description of the content that was found.
         found: String,
     },
     /// An output would overwrite something that it must not, such as files that this program did not write.
     #[error("will not write to {}: expected {expected}, found {found}", path.display())]
     Occupied {
-        /// Where the output was to go.
+        /// Path at which the output was to be written.
         path: PathBuf,
-        /// What may be at that path.
+        /// Description of what an output may replace at that path.
         expected: &'static str,
         /// What is there.
         found: String,
@@ -61,9 +61,9 @@ pub enum StoreError {
     /// An output would replace a file or folder that the same command reads.
     #[error("will not write to {}: expected no file that this command reads, found {}; name another output", path.display(), read.display())]
     Reads {
-        /// Where the output was to go.
+        /// Path at which the output was to be written.
         path: PathBuf,
-        /// The file or folder that is read.
+        /// The file or folder that the command reads.
         read: PathBuf,
     },
 }

@@ -13,13 +13,13 @@ pub(crate) const MOST_FAULTS: usize = 100;
 pub struct Fault {
     /// Path of the key, as in `actuator[3].at_mm`, counted from 0; empty for the whole file.
     pub key: String,
-    /// Line, counted from 1.
+    /// Line of the file, counted from 1.
     pub line: usize,
-    /// Column in characters, counted from 1.
+    /// Column of the line in characters, counted from 1.
     pub column: usize,
-    /// What the file says.
+    /// What was found in the file at this place.
     pub found: String,
-    /// What the file may say there.
+    /// What the file may contain at this place.
     pub expected: String,
     /// The nearest legal value or known name, in the file's own unit.
     pub nearest: Option<String>,
@@ -101,7 +101,7 @@ impl FileFaults {
         self.0.omitted
     }
 
-    /// The file's name, as it was given.
+    /// Name of the file, as it was passed to the reader.
     pub fn file(&self) -> &str {
         &self.0.file
     }

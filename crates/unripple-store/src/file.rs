@@ -130,9 +130,9 @@ pub fn check_new_file(path: impl AsRef<Path>) -> Result<(), StoreError> {
     }
 }
 
-/// Opens a new file for data that cannot be made again, such as recorded touches. Nothing but an empty file is
-/// overwritten. A file that this made is removed when the [`Underway`] is dropped, unless [`Underway::keep`] is
-/// called.
+/// Opens a new file for data that cannot be made again, such as recorded touches. Nothing but an empty file
+/// is overwritten. A file that this function made is removed when the [`Underway`] is dropped, unless
+/// [`Underway::keep`] is called.
 ///
 /// # Errors
 /// Those of [`check_new_file`], and [`StoreError::Write`] if it cannot be made.

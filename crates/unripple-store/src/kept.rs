@@ -51,8 +51,8 @@ pub fn write_kept_wav(
     Ok(Committed { path: path.into(), replaced })
 }
 
-/// Checks whether [`write_kept_wav`] may write to a path, and returns whether it would replace an earlier file.
-/// Removes what killed runs left beside it.
+/// Checks whether [`write_kept_wav`] may write to a path, and returns whether it would replace an earlier
+/// file. Also removes hidden folders that killed runs left beside that path.
 ///
 /// # Errors
 /// [`StoreError::Occupied`] if anything else is there, a signed file that was changed included; [`StoreError::Reads`]

@@ -10,7 +10,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use unripple_core::Surface;
 
-/// The built-in surface of that name, or else the surface file at that path.
+/// Loads the built-in surface with this name, or else the surface file at this path.
 ///
 /// A file that happens to have a built-in's name is reached as `./name`. An outline's `svg` is relative to the file.
 ///

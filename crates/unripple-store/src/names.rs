@@ -3,7 +3,8 @@
 /// Longest name compared, in characters; what is longer was not meant as any known name.
 const LONGEST: usize = 64;
 
-/// The known name nearest to `found`, letter case aside, if any is near enough to have been meant.
+/// The known name nearest to `found`, ignoring letter case; `None` if no name is near enough to have been
+/// meant.
 pub fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let found = found.trim().to_lowercase();
     if found.chars().count() > LONGEST {

@@ -56,7 +56,8 @@ impl OutputDir {
         Self::create_beside(path, &[])
     }
 
-    /// As [`OutputDir::create`], for work that reads these files and folders, none of which may be replaced.
+    /// As [`OutputDir::create`], for work that reads the files and folders `reads`, none of which may be
+    /// replaced.
     ///
     /// # Errors
     /// As [`OutputDir::create`], and [`StoreError::Reads`] if one of them is at the destination or in it.

@@ -63,7 +63,7 @@ pub struct SvgShape {
     pub polylines: Vec<Polyline>,
     /// Rule by which points count as inside the shape, if it is filled.
     pub fill: Option<FillRule>,
-    /// Width of its stroke in metres, if it is stroked; a dashed stroke counts as whole.
+    /// Width of its stroke in metres, if it is stroked; a dashed stroke counts as unbroken.
     pub stroke_width: Option<f64>,
 }
 
@@ -79,14 +79,15 @@ pub struct Polyline {
 /// Rule for the inside of a shape whose curves cross or nest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FillRule {
-    /// Points around which the curves wind, in either direction.
+    /// Points around which the curves wind a number of times other than zero, turns in opposite directions
+    /// cancelling.
     NonZero,
     /// Points around which the curves wind an odd number of times.
     EvenOdd,
 }
 
 impl Drawing {
-    /// Reads an SVG file; curves are followed to within `tolerance` metres.
+    /// Reads an SVG file, and approximates its curves by polylines to within `tolerance` metres.
     ///
     /// # Errors
     /// [`StoreError::Read`] if it cannot be read, otherwise as [`Drawing::parse`].
@@ -95,7 +96,8 @@ impl Drawing {
         Self::parse(&read_text(path)?, &path.display().to_string(), tolerance)
     }
 
-    /// Reads the text of an SVG document; curves are followed to within `tolerance` metres, `name` is for messages.
+    /// Reads the text of an SVG document, and approximates its curves by polylines to within `tolerance`
+    /// metres. `name` is the document's name in messages.
     ///
     /// # Errors
     /// [`StoreError::Content`] if it is not SVG, shows nothing, asks for what is not supported (clipping, masks, patterns,

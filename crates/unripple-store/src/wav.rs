@@ -17,7 +17,8 @@ const MOST_BYTES: u64 = u32::MAX as u64 - 1024;
 pub struct Wav {
     /// Samples per second.
     pub rate: f64,
-    /// The channels; those of a float file in the drive's unit, those of an integer file with full scale as 1.
+    /// Samples of each channel: in the drive's unit if the file holds floats, as fractions of full scale if
+    /// it holds integers.
     pub channels: Vec<Vec<f64>>,
 }
 

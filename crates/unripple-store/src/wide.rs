@@ -14,7 +14,7 @@ const EXTENSIBLE: u16 = 0xfffe;
 pub(crate) enum Format<R> {
     /// Float64: samples per second, channels, and what follows the format.
     Float64 { rate: u32, channels: u16, rest: R },
-    /// Anything else, whole, for the reader that knows the rest.
+    /// Any other format: all bytes of the file, for the reader of the other formats.
     Other(io::Chain<Cursor<Vec<u8>>, R>),
 }
 

@@ -5,19 +5,19 @@ use std::ops::Add;
 /// Counts of what a source has accepted and refused since it was opened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Packets, messages or events that came in, good and bad.
+    /// Packets, messages or events that were received, valid or not.
     pub packets: u64,
-    /// Touches handed on: fingers put down, moved and lifted.
+    /// Touches passed to the caller: fingers put down, moved and lifted.
     pub touches: u64,
-    /// Fingers put down, among these touches.
+    /// Touches that put a finger down, among those passed to the caller.
     pub downs: u64,
-    /// Requests for an effect or a level ([`Wish`](crate::Wish)) handed on.
+    /// Requests for an effect or a level ([`Wish`](crate::Wish)) passed to the caller.
     pub wishes: u64,
-    /// Senders seen: addresses, connections.
+    /// Number of senders, by network address or connection, from which something was received.
     pub senders: u64,
     /// Packets or messages that could not be read: truncated, too long, nested too deep, of wrong types.
     pub malformed: u64,
-    /// Well-formed messages without a meaning here: an unknown address, a finger that is not down.
+    /// Well-formed messages that mean nothing to the source: an unknown address, a finger that is not down.
     pub unknown: u64,
     /// Positions, forces or gains that are NaN, infinite or out of range.
     pub numbers: u64,
@@ -25,7 +25,7 @@ pub struct Counts {
     pub outside: u64,
     /// Tracker frames that were dropped because a later one had been accepted already.
     pub late: u64,
-    /// Fingers, senders, connections or requests beyond the largest number allowed.
+    /// Fingers, senders, connections or requests refused because the largest number allowed was reached.
     pub crowded: u64,
     /// Fingers lifted because no message about them came within the time-out
     /// ([`Options::timeout`](crate::Options::timeout)).

@@ -9,11 +9,11 @@ pub enum TouchError {
     /// The operating system reports an error of a socket, a device or a file.
     #[error("{what}: {error}; {fix}")]
     Io {
-        /// What was tried.
+        /// The operation that failed, in words.
         what: String,
-        /// What the system said.
+        /// The error that the system reports.
         error: std::io::Error,
-        /// How to fix it.
+        /// Advice on how to remedy the error.
         fix: &'static str,
     },
     /// A value is out of its range.
@@ -22,7 +22,7 @@ pub enum TouchError {
     /// A line of a recording is invalid.
     #[error("line {line}: {what}")]
     Line {
-        /// Which line, counted from 1.
+        /// Number of the line, counted from 1.
         line: usize,
         /// What was expected and what was found.
         what: String,
@@ -32,9 +32,9 @@ pub enum TouchError {
     Pushed {
         /// What is refused: `finger`, `at_m`, `force_n`, `time_s`, or the number of `fingers` or `touches`.
         what: &'static str,
-        /// What is accepted.
+        /// The values that are accepted, in words.
         expected: String,
-        /// What was found.
+        /// The value that was found.
         found: String,
     },
     /// A device file is not that of a multi-touch screen that can be read.
@@ -42,7 +42,7 @@ pub enum TouchError {
     Screen {
         /// Path of the device.
         device: String,
-        /// What is missing.
+        /// Why the device cannot be read.
         what: String,
     },
 }

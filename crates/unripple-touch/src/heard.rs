@@ -2,7 +2,7 @@
 
 use unripple_core::Touch;
 
-/// A request from a sender that is not a touch: for an effect or for a level.
+/// A request from a sender, other than a touch: for an effect or for a level.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Wish {
     /// Start the effect of this name.

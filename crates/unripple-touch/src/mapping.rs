@@ -36,7 +36,8 @@ impl Mapping {
         Self { offset: Point::default(), size: outline.extent(), mirror: false, turns: 0 }
     }
 
-    /// Place on the surface of a sensor's coordinates, in m; `None` if one of them is not from 0 to 1.
+    /// Place on the surface, in m, that corresponds to a sensor's coordinates; `None` if one of the
+    /// coordinates is not from 0 to 1.
     pub fn point(&self, right: f64, down: f64) -> Option<Point> {
         let legal = 0.0..=1.0;
         if !legal.contains(&right) || !legal.contains(&down) {

@@ -29,7 +29,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A finger that came at a time, in s, at a place, in m.
+    /// Motion of a finger that was put down at a time, in s, at a place, in m.
     pub fn new(time: f64, at: Point) -> Self {
         Self { places: [(time, at); PLACES], count: 1 }
     }

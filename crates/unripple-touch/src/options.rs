@@ -17,9 +17,9 @@ pub struct Options {
     /// Largest number of fingers at once. Further ones are counted and dropped, unless their sender has at least two fingers fewer
     /// than the sender with the most, whose latest finger is then lifted instead.
     pub most: usize,
-    /// Fingers at once from one sender, so that no sender takes the place of all others.
+    /// Largest number of fingers at once from one sender, so that no sender takes the places of all others.
     pub most_per_sender: usize,
-    /// The force in N of a sensor's full pressure, where that is known.
+    /// Force, in N, that corresponds to the full pressure of a sensor; `None` if it is not known.
     pub full_force: Option<f64>,
 }
 

@@ -77,9 +77,9 @@ struct Queue {
 }
 
 impl Pusher {
-    /// Pushes a touch at a time in s of the clock that the source is polled by; one that has passed stands for that of
-    /// the last poll. The finger has a number of the program's own, which it may use again once it has lifted the finger.
-    /// A finger is lifted where it was last.
+    /// Pushes a touch. Its time is in s of the clock by which the source is polled; a time that has passed
+    /// is replaced by that of the last poll. The program numbers its fingers as it likes, and may use a
+    /// number again once it has lifted the finger. A finger is lifted at its last place.
     ///
     /// # Errors
     /// [`TouchError::Pushed`] for a finger that comes twice, or moves or leaves without having come; for a place that is

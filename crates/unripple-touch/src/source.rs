@@ -16,8 +16,8 @@ pub trait Source: Send {
     /// Name of the source, as shown to people: `UDP 127.0.0.1:3333`.
     fn name(&self) -> &str;
 
-    /// Appends what happened up to `now`, in s of the caller's clock. Never blocks, and does bounded work: the rest
-    /// comes at the next call. To be called some hundred times a second.
+    /// Appends the touches and requests up to `now`, in s of the caller's clock. Never blocks, and does
+    /// bounded work: what is left is appended by the next call. To be called some hundred times a second.
     fn poll(&mut self, now: f64, heard: &mut Heard);
 
     /// Latest time of the next [poll](Source::poll), in s of the caller's clock, if none of the

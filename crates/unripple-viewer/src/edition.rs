@@ -1,4 +1,4 @@
-//! The surfaces that pages were sent lately, each by the number of the edit that made it.
+//! The surfaces that were sent to pages most recently, each with the number of the edit that made it.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ pub struct Edition {
     pub surface: Surface,
 }
 
-/// The editions that are kept, the newest last.
+/// The most recent editions, the newest last.
 #[derive(Debug, Default)]
 pub struct Editions {
     kept: VecDeque<Arc<Edition>>,
@@ -26,7 +26,7 @@ pub struct Editions {
 }
 
 impl Editions {
-    /// Adds an edition, before any page is sent it.
+    /// Adds an edition. To be called before the surface is sent to any page.
     pub fn publish(&mut self, edition: Arc<Edition>) {
         if self.kept.len() == KEPT {
             self.kept.pop_front();
@@ -35,7 +35,7 @@ impl Editions {
         self.kept.push_back(edition);
     }
 
-    /// Shared number of the newest edit, which is kept up to date.
+    /// Number of the newest edit, as a shared variable that every new edition changes.
     pub fn newest(&self) -> Arc<AtomicU64> {
         self.newest.clone()
     }

@@ -137,8 +137,9 @@ impl Editor {
         Ok(())
     }
 
-    /// The specification to build now, if it differs from the one that is played and none is being built, with the flag by which the
-    /// build is given up. A build that a newer specification waits for gets no more time than most surfaces take.
+    /// The specification of an instrument to be built now, with the flag that cancels the build; `None` if
+    /// there is nothing to build, or another build is under way. A build for which a newer specification
+    /// waits is cancelled after two seconds.
     pub fn wanted(&mut self) -> Option<(Box<Spec>, Stop)> {
         if let Some(underway) = &self.building {
             if self.stale {
@@ -156,7 +157,7 @@ impl Editor {
         Some((Box::new(spec.clone()), stop))
     }
 
-    /// Notes that an instrument of this specification has been built.
+    /// Records that an instrument of this specification has been built.
     pub fn built(&mut self, spec: &Spec, out: &mut Outbox) {
         self.building = None;
         self.played = spec.clone();
@@ -166,13 +167,13 @@ impl Editor {
         }
     }
 
-    /// Notes that a build was given up for a newer specification.
+    /// Records that a build was cancelled because a newer specification was waiting.
     pub fn given_up(&mut self) {
         self.building = None;
     }
 
-    /// Notes that the specification could not be built, and tells pages why. If its build has taken the device from the instrument that is
-    /// played (`lost`), that one is built again.
+    /// Records that the specification could not be built, and tells pages why. If its build has taken the
+    /// device from the instrument that is played (`lost`), that instrument is built again.
     pub fn failed(&mut self, why: &str, lost: bool, out: &mut Outbox) {
         self.building = None;
         // One that cannot be built again either is not tried for ever.

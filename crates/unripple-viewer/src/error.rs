@@ -8,7 +8,7 @@ pub enum ViewError {
     /// The server cannot listen at an address.
     #[error("listening at {address}: {why} (another program may use it: choose another port)")]
     Address {
-        /// The address as it was given.
+        /// The address that was requested.
         address: String,
         /// Reason that the operating system gave.
         why: String,
@@ -19,7 +19,7 @@ pub enum ViewError {
         /// Reason, as far as it is known.
         why: String,
     },
-    /// Work that was given up before it was done.
+    /// Work that was cancelled before it was complete.
     #[error("stopped")]
     Stopped,
     /// A value is not accepted.

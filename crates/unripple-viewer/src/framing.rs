@@ -49,7 +49,8 @@ pub struct Origin(String);
 impl FromStr for Origin {
     type Err = ViewError;
 
-    /// Reads an origin; [`ViewError::Range`] of anything else, a path after it included.
+    /// Reads an origin; anything else, including an origin that is followed by a path, is
+    /// [`ViewError::Range`].
     fn from_str(text: &str) -> Result<Self, ViewError> {
         let legal = text.split_once("://").is_some_and(|(scheme, rest)| {
             let (host, port) = match rest.split_once(':') {
@@ -89,7 +90,8 @@ fn is_port(text: &str) -> bool {
     text.bytes().all(|byte| byte.is_ascii_digit()) && text.parse::<u16>().is_ok_and(|port| port > 0)
 }
 
-/// The header `Content-Security-Policy` of all answers: what a page may load, and pages of which origins may frame it.
+/// The header `Content-Security-Policy` of all answers: which files a page may load, and the origins whose
+/// pages may show it in a frame.
 pub fn policy(framed_by: &[Origin]) -> HeaderValue {
     let origins: Vec<&str> = framed_by.iter().map(|origin| origin.0.as_str()).collect();
     let ancestors = if origins.is_empty() { "'none'".into() } else { origins.join(" ") };

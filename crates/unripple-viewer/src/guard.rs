@@ -19,18 +19,18 @@ pub struct Guard {
 pub enum Needs {
     /// Nothing but the right host.
     Nothing,
-    /// The token, where there is one.
+    /// The token, if the server has one.
     Token,
-    /// The token, and the page's own origin.
+    /// The token, and an `Origin` header that names this server.
     Origin,
 }
 
-/// Reason for which a request is refused.
+/// Reason why a request is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turned {
-    /// The name that was asked for is not this server's.
+    /// The host name in the request is not that of this server.
     Host,
-    /// The page comes from elsewhere.
+    /// The page that makes the request was not served by this server.
     Origin,
     /// The token is missing or wrong.
     Token,

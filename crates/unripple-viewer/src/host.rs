@@ -108,13 +108,14 @@ impl SessionHost {
         Ok(Arc::new(Self { notices, words, links, jobs, measured, playing, quiet: view.quiet }))
     }
 
-    /// Adds a page. `told` receives what is for this page alone, such as the reasons for which its requests are refused.
+    /// Adds a page. `told` receives the messages for this page alone, such as the reasons why its requests
+    /// are refused.
     pub fn come(&self, page: u64, told: tokio::sync::mpsc::Sender<String>) {
         lock(&self.links).insert(page, told);
         self.say(Word::Come);
     }
 
-    /// Removes a page; its fingers are lifted, and what it asked for is given up.
+    /// Removes a page; its fingers are lifted, and the computations that it requested are cancelled.
     pub fn leave(&self, page: u64) {
         lock(&self.links).remove(&page);
         self.say(Word::Leave(page));

@@ -72,7 +72,7 @@ pub use view::View;
 pub use viewer::Viewer;
 pub use wire::{Command, Edit, Job, Measure, Phase, Probe, Refused, Settings, Transport};
 
-/// Waits for some time by the machine's clock, for futures given to [`Viewer::serve`].
+/// Waits for a duration, by the machine's clock: a future that can be passed to [`Viewer::serve`].
 pub async fn pause(time: std::time::Duration) {
     tokio::time::sleep(time).await;
 }

@@ -69,7 +69,7 @@ impl Lobby {
 }
 
 impl Seat {
-    /// Notes that a request of the connection was allowed.
+    /// Records that a request of the connection was allowed.
     pub fn admit(&self) {
         self.rise(Standing::Guest);
         let seats = &mut lock(&self.lobby.seats).1;
@@ -83,7 +83,7 @@ impl Seat {
         }
     }
 
-    /// Notes that the connection is a page's link from now on.
+    /// Records that the connection is a page's link from now on.
     pub fn settle(&self) {
         self.rise(Standing::Page);
     }

@@ -25,7 +25,7 @@ pub struct Notices {
     viewers: AtomicUsize,
 }
 
-/// A page that is counted as open until this is dropped.
+/// The mark of an open page, which is counted as open until this value is dropped.
 #[derive(Debug)]
 pub struct Viewing {
     notices: Arc<Notices>,
@@ -85,7 +85,8 @@ impl Notices {
         self.version.subscribe()
     }
 
-    /// Counts one more open page, unless there are `most` already; it counts until what is returned is dropped.
+    /// Counts one more open page, unless `most` are open already; the page is counted until the returned
+    /// value is dropped.
     pub fn enter(self: &Arc<Self>, most: usize) -> Option<Viewing> {
         let one_more = |viewers| (viewers < most).then_some(viewers + 1);
         self.viewers.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more).ok()?;

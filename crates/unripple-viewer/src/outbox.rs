@@ -22,11 +22,11 @@ pub enum Out {
     Text(String, String),
     /// Kind, bytes and number of a picture for all pages, in place of the last picture of that kind.
     Frame(String, Vec<u8>, u64),
-    /// Kind of the messages whose last one is not valid any more.
+    /// Kind of message whose last message is no longer valid.
     Withdraw(String),
-    /// Number of a page, and the reason for which its request is refused.
+    /// Number of a page, and the reason why its request is refused.
     Refuse(u64, String),
-    /// Number of a page, and its own number for a request that is computed no more.
+    /// Number of a page, and the page's own number for a request whose computation was cancelled.
     Stopped(u64, u64),
     /// Files of a focus that was computed on a page's request.
     Measured(Box<Measured>),
@@ -60,7 +60,8 @@ impl Outbox {
         self.0.push(Out::Refuse(page, why.into()));
     }
 
-    /// Tells one page, given by its number, that its request of number `id` is computed no more.
+    /// Tells one page, given by its number, that the computation of its request of number `id` was
+    /// cancelled.
     pub fn stopped(&mut self, page: u64, id: u64) {
         self.0.push(Out::Stopped(page, id));
     }
@@ -70,7 +71,7 @@ impl Outbox {
         self.0.push(out);
     }
 
-    /// Takes out all messages.
+    /// Removes and returns all messages.
     pub fn take(&mut self) -> Vec<Out> {
         std::mem::take(&mut self.0)
     }

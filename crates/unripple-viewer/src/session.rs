@@ -29,7 +29,8 @@ pub enum Errand {
 
 /// Result of an errand.
 pub enum Done {
-    /// An instrument that was built, or the reason why it cannot be; [`ViewError::Stopped`] if its build was given up.
+    /// An instrument that was built, or the reason why it cannot be; [`ViewError::Stopped`] if its build was
+    /// cancelled.
     Built(Result<Box<Instrument>, ViewError>),
     /// One result of a computation.
     Found(Found),
@@ -79,12 +80,13 @@ impl Session {
         ComputeWorker::new(known, self.editions.newest())
     }
 
-    /// Notes that a page came, which must be shown a picture.
+    /// Records that a page was opened, which must be sent a picture.
     pub fn come(&mut self) {
         self.simulation.obey(Order::Look, &mut self.out);
     }
 
-    /// Notes that a page went; its fingers are lifted, and what it asked for is given up.
+    /// Records that a page was closed; its fingers are lifted, and the computations that it requested are
+    /// cancelled.
     pub fn leave(&mut self, page: u64) {
         self.simulation.obey(Order::Leave(page), &mut self.out);
         self.give_up(|asked| asked.page == page);
@@ -161,7 +163,7 @@ impl Session {
         self.simulation.advance(seconds, viewers, more, &mut self.out);
     }
 
-    /// The next work to be done beside the session, if there is any.
+    /// The next work to be done on another thread; `None` if there is none.
     pub fn errand(&mut self) -> Option<Errand> {
         self.renew();
         if let Some((spec, stop)) = self.editor.wanted() {
@@ -171,7 +173,7 @@ impl Session {
         self.tasks.next().map(|(task, stop)| Errand::Compute(task, stop))
     }
 
-    /// Takes in the result of an errand.
+    /// Processes the result of an errand.
     pub fn done(&mut self, done: Done) {
         if let Done::Built(_) = done {
             self.tell_building(false);
@@ -192,7 +194,7 @@ impl Session {
         }
     }
 
-    /// Takes out the messages and pictures for pages, the oldest first.
+    /// Removes and returns the messages and pictures for pages, the oldest first.
     pub fn take(&mut self) -> Vec<Out> {
         self.out.take()
     }

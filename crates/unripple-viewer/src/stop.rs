@@ -1,4 +1,4 @@
-//! Flags by which the session gives up what runs beside it.
+//! Flags by which the session cancels work on other threads.
 
 use crate::ViewError;
 use std::sync::Arc;
@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::{Duration, Instant};
 use unripple_tasks::Progress;
 
-/// How long work that has been overtaken may take in all. Most surfaces are computed in that time, so that results still follow a slider
-/// that is dragged; what takes longer would keep the newest surface waiting.
+/// How long work may take in all once newer work waits. Most surfaces are computed in that time, so that
+/// results still follow a slider that is dragged; what takes longer would keep the newest surface waiting.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// What the session may say of work, each more urgent than the one before.
@@ -15,22 +15,22 @@ const GO_ON: u8 = 0;
 const HURRY: u8 = 1;
 const STOP: u8 = 2;
 
-/// Work beside the session as the session sees it. The work is given up when this is dropped.
+/// The session's handle of work on another thread. The work is cancelled when the handle is dropped.
 #[derive(Debug, Default)]
 pub struct Underway(Stop);
 
 impl Underway {
-    /// The flag that goes with the work.
+    /// The cancellation flag, to be passed to the work.
     pub fn stop(&self) -> Stop {
         self.0.clone()
     }
 
-    /// Gives the work up at once.
+    /// Cancels the work at once.
     pub fn give_up(&self) {
         self.0.0.fetch_max(STOP, Ordering::Relaxed);
     }
 
-    /// Gives the work up if it takes longer than two seconds: something newer waits for it.
+    /// Cancels the work if it takes longer than two seconds in all, because newer work waits for it.
     pub fn hurry(&self) {
         self.0.0.fetch_max(HURRY, Ordering::Relaxed);
     }
@@ -42,7 +42,7 @@ impl Drop for Underway {
     }
 }
 
-/// A flag that goes with work beside the session: whether its result is still wanted.
+/// The cancellation flag of work on another thread: whether its result is still wanted.
 #[derive(Clone, Debug, Default)]
 pub struct Stop(Arc<AtomicU8>);
 
@@ -53,13 +53,13 @@ impl Stop {
         self.0.load(Ordering::Relaxed) == HURRY
     }
 
-    /// The flag as the progress of work that begins now.
+    /// A [`Progress`] that reports the flag's cancellation, for work that begins now.
     pub fn watch(&self) -> Watch {
         Watch { stop: self.clone(), began: Instant::now() }
     }
 }
 
-/// Progress of work that heeds a flag.
+/// A [`Progress`] that reports a cancellation once the flag demands it.
 #[derive(Debug)]
 pub struct Watch {
     stop: Stop,
@@ -76,7 +76,7 @@ impl Progress for Watch {
     }
 }
 
-/// Returns an error if work has been given up.
+/// Returns an error if the work has been cancelled.
 ///
 /// # Errors
 /// [`ViewError::Stopped`].

@@ -20,9 +20,10 @@ pub struct View {
     pub surface: Surface,
     /// Measured responses of the surface; computed ones are used where `None`.
     pub stored: Option<Arc<SampledResponses>>,
-    /// Reason for which the scale of the responses is not known, if it is not.
+    /// Reason why the scale of the responses is unknown; `None` if it is known.
     pub without_scale: Option<String>,
-    /// Function that gives responses of the surface's library at any places, as the command line has them.
+    /// Function that returns responses of the surface's library at any places, as they are used on the
+    /// command line.
     pub respond: Option<Responder>,
     /// Name of the surface on the command line.
     pub source: String,
@@ -34,7 +35,7 @@ pub struct View {
     pub follow: Option<Follow>,
     /// Name of the device, for people.
     pub device_name: String,
-    /// Address to listen at; port 0 takes any that is free.
+    /// Address to listen at; with port 0, the system chooses a free port.
     pub address: SocketAddr,
     /// Token that the page's URL must hold; `None` where only this machine can connect.
     pub token: Option<String>,

@@ -1,4 +1,4 @@
-//! The viewer: a server of pages that listens, and ends when it is told to.
+//! The viewer: a server that listens for pages until it is told to stop.
 
 use crate::door::listen;
 use crate::framing::policy;

@@ -55,7 +55,7 @@ impl Hum {
         self.tone.envelope().map(|_| ())
     }
 
-    /// Duration of the waveform that it keeps, in s.
+    /// Duration of the hum's waveform, in s.
     pub(super) fn sounding(&self) -> f64 {
         self.tone.envelope().map_or(0.0, |envelope| envelope.duration())
     }

@@ -34,7 +34,7 @@ pub enum Kind {
     Notch(Notch),
     /// A pulse train in time while the finger is in the region.
     Train(Train),
-    /// A shape drawn on a resting hand.
+    /// A shape: a path that pulses draw repeatedly on a resting finger or palm.
     Shape(Traced),
     /// A waveform at the finger while it is in the region.
     Hum(Hum),
@@ -71,7 +71,7 @@ impl Kind {
         }
     }
 
-    /// Total duration of the waveforms that it keeps in memory, in s.
+    /// Total duration of the waveforms that an effect of this kind keeps in memory, in s.
     pub(crate) fn sounding(&self) -> f64 {
         match self {
             Self::Hum(hum) => hum.sounding(),

@@ -8,8 +8,9 @@ use unripple_core::Point;
 
 /// Equally spaced detents along an axis, like the marks of a ruler: a pulse whenever the finger enters the next detent.
 ///
-/// The centres of detents lie at whole multiples of the pitch from the origin. The finger enters the next detent when it is past
-/// the midpoint between both by the hysteresis, so that a finger that trembles there does not set off repeated pulses.
+/// The centres of detents lie at whole multiples of the pitch from the origin. The finger enters the next
+/// detent when it is past the midpoint between the two detents by the hysteresis, so that a finger that
+/// trembles there does not set off repeated pulses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Notch {
     /// Distance between detents, in m.

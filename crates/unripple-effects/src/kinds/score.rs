@@ -21,7 +21,7 @@ const PARTS: usize = 255;
 pub struct Score {
     /// What starts the score.
     pub start: Start,
-    /// Period after which it repeats, in s; `None` if it plays once.
+    /// Period after which the score repeats, in s; `None` if it plays once.
     pub period: Option<f64>,
     /// The events, in any order.
     pub events: Vec<Event>,
@@ -45,7 +45,8 @@ pub struct Event {
     pub at: f64,
     /// Gain of the event, 0 to 1.
     pub gain: f64,
-    /// Place, in m; `None` for the place of the finger, or of the start of a score without a finger.
+    /// Where the event is played, in m; `None` for the place of the finger, or, in a score without a finger,
+    /// for the place at which the score was started.
     pub place: Option<Point>,
     /// What is played: a pulse or a waveform.
     pub sound: Sound,
@@ -84,7 +85,7 @@ impl Score {
         self.period.map_or(Ok(()), |period| within("period of a score", period, [least, limits::PERIOD[1]]))
     }
 
-    /// Total duration of the waveforms that it keeps, in s.
+    /// Total duration of the score's waveforms, in s.
     pub(super) fn sounding(&self) -> f64 {
         self.events.iter().map(|event| event.sound.duration()).sum()
     }

@@ -34,9 +34,11 @@ pub enum Anchor {
 /// How a shape is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trace {
-    /// Each pulse is focused on a point that moves along the path at this speed in m/s, and starts again at its end.
+    /// Each pulse is focused on a point that moves along the path at this speed in m/s, and continues from
+    /// the end of the path at its start.
     Moving(f64),
-    /// Each pulse is focused on all points of the path at once, which are at most this far apart, in m.
+    /// Each pulse is focused on many points along the path at the same instant; neighbouring points are at
+    /// most this far apart, in m.
     AtOnce(f64),
 }
 

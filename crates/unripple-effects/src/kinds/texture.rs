@@ -6,7 +6,8 @@ use crate::region::lerp;
 use crate::{Curve, EffectsError, limits};
 use unripple_core::{Point, Random};
 
-/// A texture: pulses ("grains") at distances along the finger's path, so that their rate follows its speed.
+/// A texture: pulses ("grains") spaced along the finger's path, so that the rate of pulses is proportional
+/// to the finger's speed.
 ///
 /// Between two touch events the finger is assumed to keep its velocity, for at most 50 ms ([`limits::HOLD`]), so that pulses come
 /// evenly.
@@ -14,7 +15,8 @@ use unripple_core::{Point, Random};
 pub struct Texture {
     /// Mean distance between pulses, in m.
     pub pitch: f64,
-    /// Random variation, 0 to 1: distances vary by this share either way, and gains are reduced by up to this share.
+    /// Random variation, 0 to 1: each distance between pulses differs from the mean by up to this share, and
+    /// gains are reduced by up to this share.
     pub grain: f64,
     /// Seed of the random variation: the same seed and touches give the same pulses.
     pub seed: u64,

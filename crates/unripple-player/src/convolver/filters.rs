@@ -15,7 +15,8 @@ pub(crate) const LANES: usize = 16;
 /// sums no longer fit the registers.
 pub(crate) const OUTPUTS: usize = 4;
 
-/// Prepares responses for a convolver: costly, but possible on any thread.
+/// Prepares impulse responses for a [`Convolver`](crate::Convolver): partitions and transforms them. This
+/// takes long, but can be done on any thread.
 #[derive(Clone)]
 pub struct FilterPlan {
     /// Number of outputs.
@@ -68,8 +69,8 @@ impl FilterPlan {
         [self.outputs.div_ceil(OUTPUTS), self.groups(), self.partitions]
     }
 
-    /// Prepares the responses of one input: one per output, of at most the planned number of taps, in samples at the
-    /// full rate.
+    /// Prepares the responses of one input: one response per output, each of at most the planned number of
+    /// samples, at the full sample rate.
     ///
     /// # Errors
     /// [`PlayerError::Size`] for another number of responses or one that is too long, [`PlayerError::Sample`] at the
@@ -94,7 +95,7 @@ impl FilterPlan {
         Ok(PreparedFilters { spectra, shape })
     }
 
-    /// The response at the lower rate, later by half the low-pass filter.
+    /// The response at the lower rate, delayed by half the length of the low-pass filter.
     fn lowered(&self, response: &[f32]) -> Vec<f32> {
         let (factor, half) = (self.filter.factor as i64, self.filter.half as i64);
         let sample = |n: i64| {

@@ -32,11 +32,12 @@ struct Turning {
     blocks: u32,
 }
 
-/// Sharing of a block among the filters of now and those that come: linear from one weight to the other.
+/// How the samples of a block are divided between the present filters and those that replace them in a
+/// cross-fade.
 pub(crate) struct Shares {
-    /// Weight of the filters that come, from 0 to 1, at the block's start and end.
+    /// Weight of the replacing filters, from 0 to 1, at the block's start and end; linear between.
     pub(crate) new: [f32; 2],
-    /// Whether filters are being turned at all.
+    /// Whether a cross-fade is under way.
     pub(crate) turning: bool,
 }
 
@@ -55,13 +56,13 @@ impl History {
         }
     }
 
-    /// Number of filters that may be held at once.
+    /// Largest number of filters that may be held at once.
     pub(crate) fn places(partitions: usize) -> usize {
         partitions + 4
     }
 
-    /// Cross-fades to other filters over a number of blocks, after a cross-fade that is under way. Filters that were
-    /// waiting for that are given back.
+    /// Cross-fades to other filters over a number of blocks, once a cross-fade that is under way has ended.
+    /// Returns filters that were waiting for the same and are replaced.
     pub(crate) fn turn(
         &mut self,
         filters: Arc<PreparedFilters>,
@@ -75,7 +76,7 @@ impl History {
         self.turning.is_some() || self.waits.is_some()
     }
 
-    /// Removes the filters for what enters from now on.
+    /// Removes the filters for samples that enter from now on.
     pub(crate) fn clear(&mut self, mut leave: impl FnMut(Garbage)) {
         let turning = self.turning.take().map(|turning| turning.to);
         for place in self.present.take().into_iter().chain(turning) {
@@ -84,7 +85,8 @@ impl History {
         self.waits.take().into_iter().for_each(|(filters, _)| leave(Garbage::Filters(filters)));
     }
 
-    /// Begins the next block; the oldest one is dropped. Returns how its samples are shared among filters.
+    /// Begins the next block, and drops the oldest. Returns how the new block's samples are divided among
+    /// filters.
     pub(crate) fn advance(&mut self, mut leave: impl FnMut(Garbage)) -> Shares {
         self.head = (self.head + 1) % self.through.len();
         for place in std::mem::take(&mut self.through[self.head]).into_iter().flatten() {
@@ -120,7 +122,7 @@ impl History {
         Shares { new, turning: true }
     }
 
-    /// Puts the spectrum of a share of the present block.
+    /// Stores the spectrum of one share (old or new filters) of the present block.
     pub(crate) fn put(&mut self, share: usize, spectrum: &[Complex<f32>]) {
         let length = self.groups * SPECTRUM;
         let at = (self.head * 2 + share) * length;
@@ -139,8 +141,8 @@ impl History {
         }
     }
 
-    /// Every share of every block that goes through filters, with those: how many blocks ago, the spectrum of a group of
-    /// lanes, the filters.
+    /// Every share of every stored block that passes through filters: how many blocks ago it entered, its
+    /// spectrum in a group of lanes, and the filters.
     #[inline(always)]
     pub(crate) fn shares(&self, group: usize) -> impl Iterator<Item = (usize, &[f32], &PreparedFilters)> {
         let blocks = self.through.len();

@@ -1,4 +1,4 @@
-//! One input of a convolver, with what has entered it.
+//! One input of a convolver, with the samples that have entered it.
 
 use super::history::History;
 use super::resample::Decimator;

@@ -31,7 +31,7 @@ use realfft::{ComplexToReal, RealFftPlanner};
 use resample::{Decimator, Interpolator, LowPass};
 use std::sync::Arc;
 
-/// Convolves every input into every output, block by block.
+/// Convolves every input with its impulse responses to every output, block by block.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -73,9 +73,10 @@ impl std::fmt::Debug for Convolver {
 }
 
 impl Convolver {
-    /// A convolver of `[inputs, outputs]` in blocks of `block` samples at `rate` samples per second, for responses of
-    /// up to `taps` samples. Frequencies of an input up to `band_top_hz` are kept within 1e-4. Those from there to the
-    /// lower rate minus `band_top_hz` may be attenuated and aliased, and those above are removed.
+    /// A convolver of `[inputs, outputs]` in blocks of `block` samples at `rate` samples per second, for
+    /// responses of up to `taps` samples. Frequencies of an input up to `band_top_hz` pass with a relative
+    /// error below 1e-4. Those from there to the lower rate minus `band_top_hz` may be attenuated and
+    /// aliased, and those above are removed.
     ///
     /// # Errors
     /// [`PlayerError::Range`] for a size out of range.
@@ -121,31 +122,33 @@ impl Convolver {
         &self.plan
     }
 
-    /// Factor by which the rate of the convolution is lower than the full rate.
+    /// Ratio of the sample rate of inputs and outputs to the lower rate at which the convolution is
+    /// computed.
     pub fn factor(&self) -> usize {
         self.plan.filter.factor
     }
 
-    /// Delay in samples from an input to an output through a response of a single 1 at tap 0: half a low-pass filter
-    /// each for the decimated input, for the response, and for the interpolated output.
+    /// Delay in samples from an input to an output if the response is a unit impulse at sample 0: three
+    /// times half the length of the low-pass filter, which acts on the decimated input, on the response, and
+    /// on the interpolated output.
     pub fn delay(&self) -> usize {
         3 * self.plan.filter.half
     }
 
-    /// Number of samples for which the decimator still puts out what has entered it.
+    /// Number of samples for which a sample that has entered still influences the decimator's output.
     pub(crate) fn lag(&self) -> usize {
         2 * self.plan.filter.half + 1
     }
 
-    /// Removes the filters of an input, by its index, from the next block on. Samples that entered before keep those
-    /// under which they entered.
+    /// Removes the filters of an input, by its index, from the next block on. Samples that entered before
+    /// are still convolved with the filters present when they entered.
     pub(crate) fn clear(&mut self, input: usize, leave: impl FnMut(Garbage)) {
         if let Some(input) = self.inputs.get_mut(input) {
             input.history.clear(leave);
         }
     }
 
-    /// Number of blocks after which nothing is left of what entered, here and in what leaves.
+    /// Number of blocks after which a sample that has entered no longer influences the state or the output.
     pub(crate) fn memory(&self) -> usize {
         // Besides the partitions: the block at hand, what the last overlaps into, and the filters down and up.
         self.plan.partitions + 2 + (4 * self.plan.filter.half + 2).div_ceil(self.block)
@@ -156,14 +159,14 @@ impl Convolver {
         self.inputs.iter().any(|input| input.history.is_turning())
     }
 
-    /// Number of filters that may be held at once.
+    /// Largest number of filters that may be held at once.
     pub(crate) fn places(&self) -> usize {
         self.inputs.len() * (History::places(self.plan.partitions) + 1)
     }
 
-    /// Cross-fades an input, by its index, to other filters over a number of blocks, from the next block on, or after
-    /// the cross-fade that is under way. Gives back filters that are not used: filters of another plan, those for an
-    /// input that does not exist, or those that were waiting and are replaced.
+    /// Cross-fades an input, by its index, to other filters over a number of blocks, from the next block on,
+    /// or after the cross-fade that is under way. Returns filters that are not used: filters of another
+    /// plan, those for an input that does not exist, or those that were waiting and are replaced.
     pub fn turn(
         &mut self,
         input: usize,

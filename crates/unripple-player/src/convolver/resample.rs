@@ -63,13 +63,13 @@ pub(crate) struct Decimator {
 }
 
 impl Decimator {
-    /// Silence before the first block, for blocks of `block` samples at the full rate.
+    /// A decimator for blocks of `block` samples at the full rate, with silence before the first block.
     pub(crate) fn new(filter: &LowPass, block: usize) -> Self {
         let taps: Vec<f32> = filter.taps.iter().rev().map(|&tap| tap as f32).collect();
         Self { history: vec![0.0; taps.len() - 1 + block], factor: filter.factor, taps }
     }
 
-    /// A block in, fewer samples out.
+    /// Takes a block at the full rate, and gives its samples at the lower rate.
     #[inline(always)]
     pub(crate) fn process(&mut self, input: &[f32], output: &mut [f32]) {
         let kept = self.taps.len() - 1;
@@ -93,7 +93,8 @@ pub(crate) struct Interpolator {
 }
 
 impl Interpolator {
-    /// Silence before the first block, for blocks of `low_block` samples at the lower rate.
+    /// An interpolator for blocks of `low_block` samples at the lower rate, with silence before the first
+    /// block.
     pub(crate) fn new(filter: &LowPass, low_block: usize) -> Self {
         let factor = filter.factor;
         let length = 2 * filter.half / factor + 1;
@@ -108,7 +109,7 @@ impl Interpolator {
         }
     }
 
-    /// A block of samples at the lower rate in, one at the full rate out.
+    /// Takes a block at the lower rate, and gives its samples at the full rate.
     #[inline(always)]
     pub(crate) fn process(&mut self, input: &[f32], output: &mut [f32]) {
         let (low, factor) = (self.wide.len(), self.phases.len());

@@ -120,7 +120,7 @@ impl Level {
         by
     }
 
-    /// Does what mixing silence does.
+    /// Raises the gain for a block without waveforms, as mixing silence would.
     pub(crate) fn rest(&mut self, outlet: &mut Outlet) {
         self.gain = kernels::smaller(self.gain + self.rise, 1.0);
         self.was_limited = self.gain < 1.0;

@@ -79,7 +79,7 @@ impl Waves {
         &self.convolver
     }
 
-    /// Number of shared data that may be held at once.
+    /// Largest number of shared data that may be held at once.
     pub(crate) fn places(&self) -> usize {
         self.convolver.places() + self.options.sounds
     }
@@ -124,8 +124,8 @@ impl Waves {
         }
     }
 
-    /// Starts a waveform at a sample of the clock, through filters of its own if it has some; whether
-    /// anything came of it.
+    /// Starts a waveform at a sample of the clock, through new filters if there are some; returns whether it
+    /// has been accepted.
     pub(crate) fn start(
         &mut self,
         (whose, input): (Whose, usize),

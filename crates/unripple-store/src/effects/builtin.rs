@@ -6,7 +6,7 @@ use unripple_effects::EffectSet;
 /// Effects that come with the program, as the text of their file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuiltinEffects {
-    /// Name of the effects, as [`crate::load_effects`] takes it.
+    /// Name of the effects, as it is passed to [`crate::load_effects`].
     pub name: &'static str,
     /// Description of the effects, in a line.
     pub about: &'static str,

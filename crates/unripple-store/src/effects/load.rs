@@ -11,8 +11,9 @@ use unripple_effects::{Effect, EffectSet, Kind, Region};
 /// Endings of files that are imported rather than read.
 const IMPORTED: [&str; 3] = ["haptic", "ahap", "hjif"];
 
-/// The built-in effects of that name, or else the effects of the file at that path: TOML, or one of the formats of
-/// [`import_haptic`], played where a finger touches and for as long as it stays.
+/// Loads the built-in effects with this name, or else the effects in the file at this path: TOML, or one of
+/// the formats of [`import_haptic`], whose effects are played where a finger touches and for as long as it
+/// stays.
 ///
 /// A file that happens to have a built-in's name is reached as `./name`.
 ///

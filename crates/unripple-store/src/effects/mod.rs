@@ -32,7 +32,7 @@ const COMMON: [&str; 5] = ["kind", "name", "region", "gain", "felt_db"];
 /// The JSON schema (draft 2020-12) of a file of effects, for editors: it describes the TOML file read as JSON.
 pub const EFFECTS_SCHEMA: &str = include_str!("../../schema/effects-1.json");
 
-/// The effects that a text in format 1 describes. `file` names it in messages.
+/// Reads effects from the text of a file of effects in format 1. `file` is the name of the file in messages.
 ///
 /// # Errors
 /// [`FileFaults`] with all faults of the text, or only the first error of TOML syntax.

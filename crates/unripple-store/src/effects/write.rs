@@ -12,8 +12,9 @@ use unripple_effects::{
     Traced, Train,
 };
 
-/// Effects as a file in format 1. [`crate::parse_effects`] makes the same effects of it, bit for bit, provided the
-/// values are within the format's limits and names are lines of text.
+/// Writes effects as the text of a file in format 1. [`crate::parse_effects`] turns the text back into the
+/// same effects, bit for bit, provided the values are within the format's limits and names are lines of
+/// text.
 ///
 /// ```
 /// let set = unripple_store::builtin_effect("sandpaper").unwrap();

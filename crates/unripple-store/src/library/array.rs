@@ -57,7 +57,7 @@ pub(crate) struct Arrays {
 }
 
 impl Arrays {
-    /// Shapes and types of the arrays that a plan asks for.
+    /// Shapes and types of the arrays that a plan requires.
     pub fn of(plan: &LibraryPlan) -> Self {
         let (points, ports) = (plan.points.len(), plan.ports.len());
         let responses = Array {
@@ -177,7 +177,7 @@ impl Array {
         self.folder(root).join(key)
     }
 
-    /// Bytes of a chunk's values.
+    /// Number of bytes of a chunk's values.
     pub fn bytes(&self) -> usize {
         let size = match self.kind {
             Kind::U8 => 1,
@@ -236,7 +236,7 @@ impl Array {
         disk::write(&manifest::path(&self.folder(root)), &[&text])
     }
 
-    /// Whether the array's metadata on disk are those of the plan.
+    /// Checks that the array's metadata on disk agree with the plan.
     pub fn check(&self, root: &Path) -> Result<(), StoreError> {
         let path = manifest::path(&self.folder(root));
         let (mut found, mut expected) = (manifest::json(&path)?, self.metadata());

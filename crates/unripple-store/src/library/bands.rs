@@ -51,7 +51,7 @@ impl Bands {
         Self { array: Array::by_bands(plan, middles.len(), attributes), middles: middles.to_vec() }
     }
 
-    /// The bands of a library; none if it has no such array. The array exists once its metadata do.
+    /// Reads the bands of a library; `None` if it has no such array. The array exists once its metadata do.
     ///
     /// # Errors
     /// [`StoreError::Content`] and [`StoreError::Read`] for damage to the metadata.
@@ -113,8 +113,9 @@ impl Library {
         self.arrays.bands.as_ref().map(|bands| bands.middles.as_slice())
     }
 
-    /// Makes room for the quality of responses in bands with these centre frequencies, in Hz and ascending. It is unknown until a
-    /// [`Take`] gives it. Does nothing if the library has these bands already.
+    /// Adds storage for the quality of responses in bands with these centre frequencies, in Hz and
+    /// ascending. The quality is unknown until a [`Take`] supplies it. Does nothing if the library has these
+    /// bands already.
     ///
     /// # Errors
     /// [`StoreError::Content`] if these are no valid centre frequencies, if the library has other bands, or if the metadata of

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub struct Damage {
     /// The file that is damaged or missing.
     pub file: PathBuf,
-    /// The point whose responses are lost, if they are.
+    /// Index of the point whose responses are lost; `None` if none are.
     pub point: Option<usize>,
     /// What the file should hold.
     pub expected: String,

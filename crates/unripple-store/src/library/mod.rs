@@ -84,7 +84,8 @@ pub struct Library {
 }
 
 impl Library {
-    /// Opens a library for writing: a new one, or an existing one with the same plan, the keys [`MAY_DIFFER`] aside.
+    /// Opens a library for writing: a new one, or an existing one with the same plan, apart from the keys
+    /// [`MAY_DIFFER`].
     ///
     /// # Errors
     /// [`StoreError::Content`] if no library can hold the plan; [`StoreError::Occupied`] if the folder holds

@@ -23,13 +23,13 @@ pub struct LibraryPlan {
     pub drive_units: Vec<String>,
     /// Points at which the responses are measured or computed, in metres.
     pub points: Vec<Point>,
-    /// Rate, band, λ_min and outline.
+    /// Sample rate, frequency band, shortest wavelength λ_min, and outline of the surface.
     pub conditions: Conditions,
-    /// Samples per response.
+    /// Number of samples per response.
     pub samples: usize,
     /// Time of the impulse in each response, in seconds after the first sample.
     pub onset: f64,
-    /// The surface as its file describes it, where there is one.
+    /// The surface as its file describes it; `None` if there is no such file.
     pub surface: Option<Surface>,
     /// Origin of the data: device, stimulus, software, seed, time. Free text under free keys.
     pub provenance: BTreeMap<String, String>,
@@ -109,7 +109,8 @@ impl LibraryPlan {
         require(whole(outline), "an outline around some area", "none".into())
     }
 
-    /// The first difference of another plan, in words; `None` if it is the same, the keys [`MAY_DIFFER`] aside.
+    /// The first difference between this plan and `found`, in words; `None` if they agree, apart from the
+    /// keys [`MAY_DIFFER`].
     pub fn difference(&self, found: &Self) -> Option<String> {
         let told = |what: &str, here: String, there: String| {
             (here != there).then(|| format!("{what}: {there} instead of {here}"))

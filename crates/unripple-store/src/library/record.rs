@@ -148,7 +148,7 @@ impl Library {
         self.write_record(Record { doubtful, ..self.record.clone() })
     }
 
-    /// The entry of the log under a key.
+    /// The entry of the measurement's log under a key.
     pub fn logged(&self, key: &str) -> Option<&Value> {
         self.record.log.get(key)
     }
@@ -231,8 +231,8 @@ impl Library {
         ports.filter(|(_, port)| named.contains(&port.name.as_str())).map(|(index, _)| index).collect()
     }
 
-    /// Why the scale of the recordings is unknown, if it is; displacements and velocities computed from the library
-    /// then have no absolute value.
+    /// Reason why the scale of the recordings is unknown; `None` if it is known. If it is unknown,
+    /// displacements and velocities computed from the library have no absolute value.
     pub fn without_scale(&self) -> Option<&str> {
         self.logged("scale")?.get("unknown")?.as_str()
     }

@@ -7,7 +7,7 @@ use crate::StoreError;
 /// State of a point of a library.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PointState {
-    /// No responses yet.
+    /// No responses are stored yet.
     #[default]
     Missing,
     /// Responses are stored.

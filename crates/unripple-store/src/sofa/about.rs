@@ -85,7 +85,8 @@ fn room(outline: &Outline) -> String {
     format!("{kind}, {width} m by {height} m, in which flexural waves reverberate")
 }
 
-/// Date and time of day (UTC), as AES69 writes them, of seconds after 1970 (Hinnant 2013, `civil_from_days`).
+/// Date and time of day (UTC), written as AES69 prescribes, of a time in seconds after 1970-01-01 00:00 UTC
+/// (Hinnant 2013, `civil_from_days`).
 ///
 /// ```
 /// assert_eq!(unripple_store::date(1_700_000_000), "2023-11-14 22:13:20");

@@ -34,7 +34,7 @@ impl Bytes {
         self.raw(&value.to_le_bytes())
     }
 
-    /// Appends the 4-byte checksum of all bytes before it, and ends.
+    /// Appends the 4-byte checksum of all bytes before it, and returns all bytes.
     pub fn checked(self) -> Vec<u8> {
         let check = checksum(&self.0);
         self.u32(check).0

@@ -49,7 +49,7 @@ impl NetCdf {
         variable.axes.iter().map(|axis| self.axes[*axis].1).collect()
     }
 
-    /// Bytes of a variable's values.
+    /// Number of bytes of a variable's values.
     pub fn bytes(&self, variable: &Variable) -> u64 {
         self.shape(variable).iter().fold(variable.kind.size(), |size, n| size.saturating_mul(*n))
     }

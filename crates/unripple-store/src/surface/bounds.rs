@@ -38,7 +38,7 @@ impl Bounds {
         (self.greatest.x - self.least.x).max(self.greatest.y - self.least.y)
     }
 
-    /// Whether a point is within, or beside by less than `margin`.
+    /// Whether a point lies in the box, or outside it by less than `margin`, all in metres.
     pub fn hold(&self, p: Point, margin: f64) -> bool {
         let between = |v: f64, low: f64, high: f64| (low - margin..=high + margin).contains(&v);
         between(p.x, self.least.x, self.greatest.x) && between(p.y, self.least.y, self.greatest.y)

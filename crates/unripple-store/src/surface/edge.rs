@@ -18,7 +18,7 @@ const ADHESIVE_KEYS: [&str; 3] = ["adhesive_young_mpa", "adhesive_width_mm", "ad
 pub(super) struct SidesListed {
     /// Number of sides.
     pub count: usize,
-    /// Where counting starts and which way it goes.
+    /// At which side counting starts and in which direction it goes, in words.
     pub order: &'static str,
 }
 

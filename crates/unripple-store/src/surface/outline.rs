@@ -26,7 +26,7 @@ pub(super) struct Rim {
     pub shape: Option<Shape>,
     /// How the sides of the outline are held.
     pub edges: Option<Edges>,
-    /// Holes drawn with the rim.
+    /// Holes drawn in the same SVG file as the rim.
     pub holes: Vec<Hole>,
     /// The bytes of the file that give the shape.
     pub shape_span: Range<usize>,

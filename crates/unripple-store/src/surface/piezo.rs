@@ -25,7 +25,7 @@ const PATCH_POISSON: f64 = 0.3;
 
 /// The sheet where a piezo patch is, as far as the file is without fault.
 pub(super) struct Spot<'a> {
-    /// Thickness there, in metres.
+    /// Thickness of the sheet at the patch, in metres.
     pub thickness: Option<f64>,
     /// The outline, and where on it the patch is.
     pub place: Option<(&'a Outline, Point)>,

@@ -7,7 +7,7 @@ use crate::{decimal, degrees};
 pub(crate) struct Limits {
     /// The unit's name; empty for a pure number.
     pub unit: &'static str,
-    /// SI value = file value · 10^power.
+    /// Power of ten by which a value of the file is multiplied to give its SI value.
     pub power: i32,
     /// Whether the file's unit is the degree and SI's the radian.
     pub turns: bool,

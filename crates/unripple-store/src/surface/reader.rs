@@ -88,7 +88,7 @@ impl<'a> Entry<'a> {
         faults.add(&self.key, self.span.clone(), found, expected, nearest);
     }
 
-    /// A number within limits, in SI.
+    /// The value as a number within limits, converted to SI units; otherwise a fault.
     pub fn number(&self, limits: &Limits, faults: &mut Faults) -> Option<f64> {
         let text = match self.value {
             DeValue::Float(float) => Some(float.as_str().to_owned()),
@@ -110,7 +110,7 @@ impl<'a> Entry<'a> {
         None
     }
 
-    /// A whole number within limits.
+    /// The value as a whole number from `least` to `most`; otherwise a fault.
     pub fn count(&self, least: usize, most: usize, faults: &mut Faults) -> Option<usize> {
         let DeValue::Integer(integer) = self.value else {
             self.refuse(format!("a whole number from {least} to {most}"), None, faults);
@@ -127,7 +127,7 @@ impl<'a> Entry<'a> {
         None
     }
 
-    /// One line of text that is not blank.
+    /// The value as one line of text that is not blank; otherwise a fault.
     pub fn line(&self, expected: &str, faults: &mut Faults) -> Option<String> {
         let text = self.value.as_str().map(str::trim);
         let fits = |t: &&str| !t.is_empty() && t.len() <= LONGEST_LINE && !t.chars().any(char::is_control);
@@ -138,7 +138,7 @@ impl<'a> Entry<'a> {
         line
     }
 
-    /// The value of one of several names.
+    /// The choice that the value names; otherwise a fault.
     pub fn choice<T: Copy>(&self, choices: &[(&'static str, T)], faults: &mut Faults) -> Option<T> {
         let found = self.value.as_str();
         let chosen = choices.iter().find(|(name, _)| Some(*name) == found).map(|(_, value)| *value);
@@ -156,7 +156,7 @@ impl<'a> Entry<'a> {
         Some(list.iter().enumerate().map(|(i, v)| Entry::new(format!("{}[{i}]", self.key), v)).collect())
     }
 
-    /// Exactly `N` numbers within the same limits.
+    /// The value as a list of exactly `N` numbers within the same limits, in SI units; otherwise a fault.
     pub fn numbers<const N: usize>(
         &self,
         limits: &Limits,
@@ -222,8 +222,8 @@ impl<'a> Section<'a> {
         Self { key: String::new(), span: 0..0, table: document, defaults: None }
     }
 
-    /// This table, with another for the keys that it does not have. [`check_keys`](Self::check_keys) looks at this
-    /// one alone.
+    /// This table, with another table that supplies the keys missing from this one.
+    /// [`check_keys`](Self::check_keys) looks at this one alone.
     pub fn with_defaults(self, defaults: Option<&'a Section<'a>>) -> Self {
         Self { defaults, ..self }
     }
@@ -257,12 +257,12 @@ impl<'a> Section<'a> {
         own.or_else(|| self.defaults?.get(key))
     }
 
-    /// Whether the table itself gives a key, whatever the defaults give.
+    /// Whether the table itself contains a key, whether or not the defaults do.
     pub fn gives(&self, key: &str) -> bool {
         self.table.contains_key(key)
     }
 
-    /// The value of a key that must be there.
+    /// The value of a key; a fault if the key is missing.
     pub fn require(&self, key: &str, expected: &str, faults: &mut Faults) -> Option<Entry<'a>> {
         let entry = self.get(key);
         if entry.is_none() {
@@ -271,12 +271,12 @@ impl<'a> Section<'a> {
         entry
     }
 
-    /// A number that must be there.
+    /// The number under a key, in SI units; a fault if the key is missing.
     pub fn number(&self, key: &str, limits: &Limits, faults: &mut Faults) -> Option<f64> {
         self.require(key, &limits.expected(), faults)?.number(limits, faults)
     }
 
-    /// A number with a default, both in SI.
+    /// The number under a key, or the default if the key is missing, both in SI units.
     pub fn number_or(&self, key: &str, default: f64, limits: &Limits, faults: &mut Faults) -> Option<f64> {
         match self.get(key) {
             Some(entry) => entry.number(limits, faults),
@@ -284,7 +284,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The value of one of several names, with a default.
+    /// The choice that the value of a key names, or the default if the key is missing.
     pub fn choice_or<T: Copy>(
         &self,
         key: &str,

@@ -25,14 +25,15 @@ pub(super) struct Ring {
 pub(super) type Complaint = (String, String);
 
 impl Ring {
-    /// Sides as the file lists them; `counts` of them were one side of the file.
+    /// A curve of sides in the order of the file; `counts` has, for each side that the file lists, the
+    /// number of sides that it became.
     pub fn new(sides: Vec<Side>, counts: Vec<usize>) -> Self {
         let turned = is_clockwise(&sides);
         let sides = if turned { sides.into_iter().rev().map(Side::reversed).collect() } else { sides };
         Self { sides, counts, turned }
     }
 
-    /// Sides as the file lists them, where none of the file's sides became several.
+    /// A curve of sides in the order of the file, each of which is one side that the file lists.
     pub fn plain(sides: Vec<Side>) -> Self {
         let counts = vec![1; sides.len()];
         Self::new(sides, counts)
@@ -48,7 +49,7 @@ impl Ring {
         self.counts.len()
     }
 
-    /// Edges of the sides from those of the file's sides.
+    /// Edge conditions of the curve's sides, from those of the sides that the file lists.
     pub fn edges(&self, list: &[Edge]) -> Edges {
         let each = list.iter().zip(&self.counts);
         let mut edges: Vec<Edge> = each.flat_map(|(edge, n)| std::iter::repeat_n(*edge, *n)).collect();

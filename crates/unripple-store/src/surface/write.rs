@@ -13,8 +13,8 @@ use unripple_core::{
     Sheet, Surface, Uneven,
 };
 
-/// A surface as a file in format 1. [`crate::parse_surface`] makes the same surface of it, bit for bit, provided the
-/// values are within the format's limits.
+/// Writes a surface as the text of a file in format 1. [`crate::parse_surface`] turns the text back into the
+/// same surface, bit for bit, provided the values are within the format's limits.
 ///
 /// ```
 /// let film = unripple_store::load_surface("hudin-2012")?;

@@ -12,7 +12,7 @@ pub struct Curve {
     /// Lines and cubic Bézier curves that meet end to end, in metres. An elliptic arc is approximated by several,
     /// within 1e-7 m.
     pub sides: Vec<Side>,
-    /// Number of these for each segment that was drawn, in order.
+    /// Number of sides that each segment of the drawing became, in order.
     pub counts: Vec<usize>,
     /// Whether the curve returns to its start.
     pub closed: bool,
@@ -23,7 +23,8 @@ const MOST_SIDES: usize = 1 << 16;
 /// How near a curve's handles must be to its chord for it to be a line, in metres: the accuracy of single precision.
 const STRAIGHT: f64 = 1e-8;
 
-/// Reads the curves of the text of an SVG document without flattening them; `name` is for messages.
+/// Reads the curves of the text of an SVG document without flattening them; `name` is the document's name in
+/// messages.
 ///
 /// Quadratic curves are raised to cubic ones. An elliptic arc of a path counts as one segment; a circle or an ellipse
 /// as four, a quarter each. A cubic curve by which drawing programs approximate a quarter of an ellipse is taken as

@@ -52,7 +52,7 @@ impl Playback {
         Ok(Self { recording, next: 0, start: None, down: Vec::new(), counts: Counts::default() })
     }
 
-    /// Whether everything was played.
+    /// Whether the whole recording was played.
     pub fn done(&self) -> bool {
         self.next == self.recording.len() && self.down.is_empty()
     }

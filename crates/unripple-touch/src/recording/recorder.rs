@@ -37,7 +37,7 @@ impl<W: Write> Recorder<W> {
         Ok(Self { to, start, last: start })
     }
 
-    /// Appends touches at their own times, and requests at `now`, in s.
+    /// Appends touches with their times, and requests with the time `now`, in s.
     pub fn record(&mut self, now: f64, heard: &Heard) -> Result<(), TouchError> {
         let touches = heard.touches.iter().map(|touch| Item::Touch(*touch));
         let wishes = heard.wishes.iter().map(|wish| Item::Wish(now, wish.clone()));
@@ -57,7 +57,7 @@ impl<W: Write> Recorder<W> {
         }
     }
 
-    /// Ends the recording, and gives back what it was written to.
+    /// Ends the recording, and returns the writer.
     pub fn finish(mut self) -> Result<W, TouchError> {
         self.to.flush().map_err(error)?;
         Ok(self.to)

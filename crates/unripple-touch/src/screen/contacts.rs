@@ -1,11 +1,11 @@
-//! The events of a screen, as its reader asks for them.
+//! Access to the input events of a touch screen.
 
 use super::slots::Event;
 use std::io;
 #[cfg(unix)]
 use std::os::fd::BorrowedFd;
 
-/// The events of a screen, read from the kernel or from a list.
+/// The input events of a touch screen, read from the kernel or from a list.
 pub trait Contacts: Send {
     /// Appends the next events that are available, some tens at a time; never blocks. If it appends none, no more are
     /// available.

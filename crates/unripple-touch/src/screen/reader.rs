@@ -32,9 +32,9 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// A screen with given events. `axes` are the ranges of x, to the right, and of y, downwards; `pressure` is that
-    /// of the pressure, if the screen measures it. All are in the screen's own units. Fails if a range is empty or an
-    /// option out of range.
+    /// A screen whose events are read from `contacts`. `axes` are the ranges of x, to the right, and of y,
+    /// downwards; `pressure` is that of the pressure, if the screen measures it. All are in the screen's own
+    /// units. Fails if a range is empty or an option out of range.
     pub fn new(
         name: impl Into<String>,
         contacts: Box<dyn Contacts>,

@@ -1,4 +1,5 @@
-//! Computations on a thread beside the session, with the results of the command line: what takes longer than a picture may wait.
+//! Computations that take too long to be done between two pictures: on a thread beside the session, with the
+//! same results as on the command line.
 
 mod compare;
 mod design;
@@ -24,7 +25,8 @@ use unripple_tasks::{Lane, Progress, TaskError};
 /// Name on the command line of a surface that was edited on the page: that of the file in which it is saved.
 const SAVED: &str = "surface.toml";
 
-/// Function that gives the responses of a library at some places (m), or says in words why it cannot.
+/// Function that returns the responses of a library at some places (m), or the reason in words why it
+/// cannot.
 pub type Responder = Arc<dyn Fn(&[Point]) -> Result<Responses, String> + Send + Sync>;
 
 /// A result of the compute worker: a message for pages, or simulated drives to be shown.
@@ -35,7 +37,7 @@ pub enum Found {
     Replay(Box<Replay>),
 }
 
-/// Callback that receives each result at once.
+/// Callback that receives each result as soon as it has been computed.
 pub type Hear<'a> = dyn FnMut(Found) + 'a;
 
 /// How many calls that were given up may still run while the worker goes on, each with its memory and cores: the next must not wait for
@@ -44,7 +46,7 @@ const BESIDE: usize = 1;
 
 /// Why a task has no result.
 enum Unfinished {
-    /// The task was given up before it had a result.
+    /// The task was cancelled before it had a result.
     Stopped,
     /// Reason in words why it cannot be done.
     Refused(String),
@@ -83,8 +85,9 @@ pub struct ComputeWorker {
 }
 
 impl ComputeWorker {
-    /// A worker for a surface: its name, the responses of its library if it has one, and the reason why their scale is unknown if it is;
-    /// `newest` is the number of the edit that pages see.
+    /// A worker for a surface, given by its name, the responses of its library if it has one, and the reason
+    /// why the scale of these responses is unknown if it is; `newest` is the number of the edit that pages
+    /// see.
     pub fn new(
         (source, stored, without_scale): (String, Option<Responder>, Option<String>),
         newest: Arc<AtomicU64>,
@@ -92,8 +95,8 @@ impl ComputeWorker {
         Self { source, stored, without_scale, draft: None, place: None, newest, lane: Lane::new(BESIDE) }
     }
 
-    /// Performs a task, and passes its results to `hear`. Within 0.2 s after `progress` reports a cancellation it is given up, and the
-    /// page that asked is told so.
+    /// Performs a task, and passes its results to `hear`. Within 0.2 s after `progress` reports a
+    /// cancellation, the task is given up, and the page that requested it is informed.
     pub fn work(&mut self, task: Task, progress: &mut dyn Progress, hear: &mut Hear) {
         let asked = task.asked();
         let done = match task {

@@ -1,4 +1,4 @@
-//! Tasks that wait to be computed, and the one that is.
+//! The queue of tasks to be computed, and the task that is being computed.
 
 use super::{Asked, Task};
 use crate::stop::{Stop, Underway};
@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 /// Largest number of computations of a focus that may wait. Design figures are not counted: of these one waits at most.
 const MOST: usize = 16;
 
-/// Tasks to be computed, in the order in which they were asked for, and the one that is being computed.
+/// Tasks to be computed, in the order in which they were requested, and the one that is being computed.
 #[derive(Default)]
 pub struct Queue {
     waiting: VecDeque<Task>,
@@ -15,11 +15,12 @@ pub struct Queue {
 }
 
 impl Queue {
-    /// Adds a task. Design figures take the place of those that wait for an earlier edit, and are never refused: pages would have no
-    /// figures of the surface that they show. A focus is refused if too many wait.
+    /// Adds a task. One for design figures replaces one that waits for an earlier edit, and is never
+    /// refused, since pages would have no figures of the surface that they show. One for a focus is refused
+    /// if too many wait.
     ///
     /// # Errors
-    /// The page that asked for the refused task, and the reason.
+    /// The page that requested the refused task, and the reason.
     pub fn push(&mut self, task: Task) -> Result<(), (u64, &'static str)> {
         match task.asked() {
             None => {
@@ -39,7 +40,8 @@ impl Queue {
         Ok(())
     }
 
-    /// Removes the next task from the queue, to be computed now; `None` while another one is.
+    /// Removes the next task from the queue, and returns it with its cancellation flag; `None` while another
+    /// task is being computed.
     pub fn next(&mut self) -> Option<(Task, Stop)> {
         if self.running.is_some() {
             return None;
@@ -51,13 +53,14 @@ impl Queue {
         Some((task, stop))
     }
 
-    /// Notes that the task which was being computed has ended.
+    /// Records that the task which was being computed has ended.
     pub fn done(&mut self) {
         self.running = None;
     }
 
-    /// Gives up the tasks that answer some requests. Returns the requests of those that waited, which are answered by nobody else, and
-    /// whether the task that is being computed is one of them.
+    /// Cancels the tasks that answer the requests for which `which` is true. Returns the requests of those
+    /// that were waiting, which the caller must answer, and whether the task that is being computed is
+    /// cancelled.
     pub fn give_up(&mut self, which: impl Fn(&Asked) -> bool) -> (Vec<Asked>, bool) {
         let mut removed = Vec::new();
         self.waiting.retain(|task| {

@@ -4,7 +4,8 @@ use crate::edition::Edition;
 use crate::wire::Measure;
 use std::sync::Arc;
 
-/// A computation that a page asks for. A focus is computed for the surface that the page showed, even if it has been edited since.
+/// A computation that a page requests. A focus is computed for the surface that the page showed, even if it
+/// has been edited since.
 pub enum Task {
     /// The design figures of a surface.
     Design(Arc<Edition>),
@@ -14,10 +15,10 @@ pub enum Task {
         measure: Measure,
         /// The surface that the page showed.
         of: Arc<Edition>,
-        /// The page that asked.
+        /// Number of the page that requests it.
         page: u64,
     },
-    /// Two focusing methods on the same targets.
+    /// A comparison of two focusing methods on the same targets.
     Compare {
         /// The page's own number for the request.
         id: u64,
@@ -29,24 +30,24 @@ pub enum Task {
         window_ms: Option<f64>,
         /// The surface that the page showed.
         of: Arc<Edition>,
-        /// The page that asked.
+        /// Number of the page that requests it.
         page: u64,
     },
 }
 
-/// Kinds of computations that a page asks for.
+/// Kinds of computations that a page requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A focus with all figures.
     Measure,
-    /// Two methods side by side.
+    /// A comparison of two methods, side by side.
     Compare,
 }
 
 /// The request of a page that a task answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
-    /// The page that asked.
+    /// Number of the page that requests it.
     pub page: u64,
     /// The page's own number for the request.
     pub id: u64,
@@ -55,7 +56,8 @@ pub struct Asked {
 }
 
 impl Task {
-    /// The request that the task answers; `None` for design figures, which every edit brings about.
+    /// The request that the task answers; `None` for design figures, which are computed after every edit
+    /// without a request.
     pub fn asked(&self) -> Option<Asked> {
         match self {
             Self::Design(_) => None,

@@ -1,4 +1,5 @@
-//! The window of a focus that a page asks for, and the longest that there is anything in.
+//! The window of a focus that a page requests, and the longest one that is accepted: responses have decayed
+//! after it.
 
 use super::{ComputeWorker, Unfinished};
 use crate::edition::Edition;

@@ -4,8 +4,8 @@ use super::places;
 use crate::wire::Edit;
 use unripple::core::{Decay, Edge, Edges, Material, Outline, Point, Shape, Surface};
 
-/// Returns a surface with an edit applied. The result is not checked here: names that do not exist change nothing or are copied as they
-/// are.
+/// Returns a copy of a surface with an edit applied. The result is not checked here: an unknown name of a
+/// material is copied, and an unknown edge condition changes nothing.
 pub fn apply(surface: &Surface, edit: &Edit) -> Surface {
     let mut surface = surface.clone();
     sheet(&mut surface, edit);
@@ -59,7 +59,7 @@ fn shape(edit: &Edit) -> Option<Shape> {
     rectangle.or(circle).or(stadium)
 }
 
-/// The edge condition of a name: clamped, supported or free.
+/// The edge condition of this name, `clamped`, `supported` or `free`; `None` for any other name.
 pub fn edge(name: &str) -> Option<Edge> {
     match name {
         "clamped" => Some(Edge::Clamped),

@@ -1,4 +1,4 @@
-//! Places for actuators that are added: farthest from the others along the rim.
+//! Places for actuators that are added: near the rim, and as far as possible from the other actuators.
 
 use unripple::core::{Actuator, ActuatorKind, Outline, Point, Surface};
 
@@ -6,8 +6,8 @@ use unripple::core::{Actuator, ActuatorKind, Outline, Point, Surface};
 const AROUND: usize = 97;
 const INWARD: [f64; 3] = [0.14, 0.22, 0.3];
 
-/// Gives a surface `count` actuators: the first ones stay, and each new one is placed near the rim where it is farthest from all others, at
-/// varying depths, so that distances do not repeat.
+/// Changes the number of actuators of a surface to `count`: the first ones stay, and each new one is placed
+/// near the rim where it is farthest from all others, at varying depths, so that distances do not repeat.
 pub fn fill(surface: &mut Surface, count: usize) {
     surface.actuators.truncate(count);
     let model = surface.actuators.first().cloned();
@@ -26,7 +26,7 @@ pub fn fill(surface: &mut Surface, count: usize) {
     }
 }
 
-/// The same place (m) if it is on the sheet, else the nearest one a little inside.
+/// The place `at` (m) if it is on the sheet; otherwise a place near it, a little inside the rim.
 pub fn onto(outline: &Outline, at: Point) -> Point {
     if outline.contains(at) {
         return at;

@@ -36,12 +36,12 @@ pub struct Jobs {
 }
 
 impl Jobs {
-    /// No jobs yet; calibrations write their libraries to `folder`.
+    /// An empty list of jobs; calibrations write their libraries to `folder`.
     pub fn new(notices: Arc<Notices>, folder: PathBuf) -> Self {
         Self { notices, folder, given: AtomicU64::new(0), running: Mutex::new(Vec::new()) }
     }
 
-    /// Starts or stops a job, as a page asks. The surface is given as the text of its file.
+    /// Starts or stops a job, as a page requests. The surface is given as the text of its file.
     ///
     /// # Errors
     /// Reason why the job cannot be started.

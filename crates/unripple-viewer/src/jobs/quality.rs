@@ -18,8 +18,8 @@ impl Quality {
         Self { folder, known: Vec::new() }
     }
 
-    /// The share of the points that are done, and place, state and signal-to-noise ratio of each as JSON; `None` if
-    /// there is no library yet.
+    /// The fraction of the points that are done, and the place, state and signal-to-noise ratio of each
+    /// point as JSON; `None` if there is no library yet.
     pub fn look(&mut self) -> (Option<f64>, Value) {
         let Ok(library) = Library::open(&self.folder) else { return (None, Value::Null) };
         let points = library.points();

@@ -22,13 +22,13 @@ const FILLING: &str = "points";
 /// Interval of the messages on progress: as fast as a bar's progress is seen.
 const LOOKED: Duration = Duration::from_millis(400);
 
-/// A task that a page asked for.
+/// A task that a page has requested.
 pub enum Work {
     /// The list of devices.
     Devices(devices::Ask),
-    /// Each stage between a touch and what is felt, checked.
+    /// A check of each stage between a touch and what is felt.
     Doctor(Box<doctor::Ask>),
-    /// Responses measured into a library.
+    /// A measurement of responses into a library.
     Calibrate(Box<calibrate::Ask>),
 }
 

@@ -23,8 +23,8 @@ use unripple_store::{builtin_effect, builtin_effects, parse_effects};
 use unripple_tasks::Progress;
 use unripple_touch::Sources;
 
-/// Cells along the longer side of the picture. A picture is 32 kB then; twice as many are four times as much, and
-/// cost four times the products.
+/// Number of cells along the longer side of the picture, which then takes 32 kB. With twice this value, a
+/// picture takes four times the memory and four times the multiplications.
 pub const CELLS: usize = 128;
 
 /// Largest number of fingers whose sensations are computed, and of fingers that load the sheet, those being lifted
@@ -90,7 +90,7 @@ pub struct Instrument {
     pub tape: Tape,
     /// The window in use, with the contrast expected of it.
     pub window: Window,
-    /// The window that suits live play, used where none is asked for.
+    /// The window that suits live play, used where none is requested.
     pub suggested: Window,
     /// The level that a gain of 1 stands for.
     pub level: Level,

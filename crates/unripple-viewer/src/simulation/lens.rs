@@ -12,9 +12,9 @@ const LANES: usize = 16;
 /// Square cells over a surface's bounding box, row by row from the bottom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cells {
-    /// Number of cells across.
+    /// Number of cells along x.
     pub columns: usize,
-    /// Number of cells upward.
+    /// Number of cells along y.
     pub rows: usize,
     /// Distance from each cell to the next along x and y, in m.
     pub pitch: [f64; 2],
@@ -53,7 +53,8 @@ pub struct Lens {
 }
 
 impl Lens {
-    /// A picture of a sheet within an outline, with `longest` cells along the longer side.
+    /// The map from modes to a picture of a sheet within an outline, with `longest` cells along the longer
+    /// side.
     pub fn new(plant: &Plant, outline: &Outline, longest: usize) -> Self {
         let cells = Cells::of(outline, longest);
         let inside: Vec<bool> = cells.centres().map(|at| outline.contains(at)).collect();

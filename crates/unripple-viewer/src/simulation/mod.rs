@@ -44,9 +44,10 @@ const MOST_PROBES: usize = 6;
 
 /// A request to the simulation.
 pub enum Order {
-    /// A finger, by its page and its number there.
+    /// A touch of a finger: the numbers of its page and of the finger on that page, the phase, and the place
+    /// (m).
     Touch((u64, u32), wire::Phase, Point),
-    /// A page went: its fingers are lifted.
+    /// A page was closed: its fingers are lifted.
     Leave(u64),
     /// Sets how time passes.
     Transport(wire::Transport),
@@ -58,7 +59,7 @@ pub enum Order {
     Play(Box<Instrument>, Value),
     /// Shows two recorded simulations side by side; with `None` the live surface again.
     Replay(Option<Box<Replay>>),
-    /// A page came, and must be shown a picture.
+    /// A page was opened, and must be sent a picture.
     Look,
 }
 

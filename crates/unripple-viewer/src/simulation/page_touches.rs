@@ -11,7 +11,8 @@ const TAKEN: usize = 256;
 /// Fingers at once over all pages: all that a crowd of pages can put down and a surface can tell apart.
 const MOST: usize = 128;
 
-/// Fingers of pages that are down, by page and number.
+/// Places (m) of the fingers of pages that are down, by the number of the page and the page's number for the
+/// finger.
 pub type Pressed = BTreeMap<(u64, u32), Point>;
 
 /// Source of touches that receives the fingers on pages.

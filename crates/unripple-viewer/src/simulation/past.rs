@@ -8,8 +8,8 @@ use unripple::physics::stepper::History;
 /// trace smooth. Twice as many take twice the memory.
 const STATES: f64 = 4.0;
 
-/// Largest memory for the stored states of what is shown, in bytes: a second of 2800 modes up to 3 kHz. Twice as much holds twice the time
-/// or twice as many modes.
+/// Largest memory for the stored states of a surface, in bytes: enough for one second of 2800 modes at
+/// frequencies up to 3 kHz. Twice as much holds twice the time or twice as many modes.
 pub const MOST_BYTES: usize = 256 << 20;
 
 /// Number of states of `modes` modes that fit in [`MOST_BYTES`]: each has a displacement and a velocity of four bytes for every mode.

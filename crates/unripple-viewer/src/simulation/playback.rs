@@ -102,8 +102,8 @@ impl Away {
         Ok(Self { shadow, drive, known, player, block, heard })
     }
 
-    /// Steps the simulated surface by a block of the device's drive, and returns that block; `None` if there is none
-    /// yet.
+    /// Steps the simulated surface by a block of the device's drive, and returns that block; `None` if no
+    /// new block has arrived.
     pub fn step(&mut self) -> Result<Option<&[f32]>, DeviceError> {
         let Ok(chunk) = self.drive.read_chunk(self.block.len()) else { return Ok(None) };
         self.block.iter_mut().zip(chunk).for_each(|(to, x)| *to = x);

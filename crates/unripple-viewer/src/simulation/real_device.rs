@@ -37,7 +37,8 @@ impl RealDevice {
         lock(&self.held).of.as_ref().filter(|(of, _)| of == surface).map(|(_, block)| *block)
     }
 
-    /// Takes the device from whoever plays it. One that is open for another surface, or lost, is closed and opened again.
+    /// Takes the device from the instrument that plays it, if there is one. A device that is open for
+    /// another surface, or lost, is closed and opened again.
     ///
     /// # Errors
     /// [`ViewError::Device`] if it cannot be opened; [`ViewError::Stopped`] once it is closed for good.
@@ -61,7 +62,7 @@ impl RealDevice {
         Ok(Lent { device: Some(device), layout, held: self.held.clone() })
     }
 
-    /// Notes who plays the device now, so that it can be taken back.
+    /// Records the thread that plays the device now, so that the device can be taken back from it.
     pub fn played_by(&self, player: Arc<Player>) {
         lock(&self.held).player = Some(player);
     }

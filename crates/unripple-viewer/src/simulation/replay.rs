@@ -36,7 +36,7 @@ pub struct Pane {
     drive: Vec<Vec<f32>>,
 }
 
-/// Simulations shown side by side, over and over, in step.
+/// Simulations shown side by side, in step, again and again.
 pub struct Replay {
     panes: Vec<Pane>,
     lens: Lens,
@@ -92,7 +92,8 @@ impl Replay {
         self.panes.first().map_or(0.0, |pane| oldest(pane) as f64 / self.rate)
     }
 
-    /// Duration at the beginning that is not kept, in s, since it would take too much memory.
+    /// Duration at the beginning of the simulation, in s, whose states are not stored because they would
+    /// take too much memory.
     pub fn dropped(&self) -> f64 {
         let dropped = |pane: &Pane| {
             let states = pane.history.newest() as usize / pane.history.stride();

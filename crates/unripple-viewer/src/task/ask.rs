@@ -18,19 +18,20 @@ pub struct Ask {
     /// Focusing method to begin with; the page can change it.
     #[serde(with = "method")]
     pub method: Method,
-    /// Follow the tension of the sheet from the signals of the actuators' sensors, on a real device or with `unknowns`.
+    /// Whether to follow the tension of the sheet, from the signals of the actuators' sensors; possible on a
+    /// real device, or with `unknowns`.
     pub follow_tension: bool,
     /// Address to listen at; by default only this machine can connect. For other machines the URL holds a token.
     pub listen: IpAddr,
     /// TCP port; 0 for any free one.
     pub port: u16,
-    /// The token, 8 to 64 letters and digits; by default a new one each time.
+    /// The token, 8 to 64 letters and digits; by default a new random one at each start.
     pub token: Option<String>,
     /// Origins, `scheme://host[:port]`, whose pages may show this page in a frame; without them none may.
     pub framed_by: Vec<String>,
     /// Folder for libraries that are calibrated from the page.
     pub folder: PathBuf,
-    /// Seconds to serve; without it until cancelled.
+    /// Time for which pages are served, in s; `None` to serve until the task is cancelled.
     pub seconds: Option<f64>,
 }
 

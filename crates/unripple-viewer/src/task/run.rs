@@ -34,8 +34,9 @@ impl From<ViewError> for TaskError {
     }
 }
 
-/// Shows a surface until the task is cancelled or the time asked for is over. `opened` is called with the page's
-/// addresses as soon as a page can be opened. A task that is cancelled before that returns within 0.2 s.
+/// Shows a surface until the task is cancelled or the requested time is over. `opened` is called with the
+/// page's addresses as soon as a page can be opened. A task that is cancelled before that returns within 0.2
+/// s.
 ///
 /// ```
 /// use unripple_tasks::Silent;

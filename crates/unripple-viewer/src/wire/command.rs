@@ -76,7 +76,7 @@ pub enum Command {
         #[serde(default)]
         off: bool,
     },
-    /// Give up what this page has asked to be measured or compared.
+    /// Cancel a measurement or comparison that this page has requested.
     Stop {
         /// The page's own number for the request.
         id: u64,
@@ -102,7 +102,7 @@ pub enum Phase {
     Up,
 }
 
-/// How time passes, and which instant is shown. Absent fields leave things as they are.
+/// How time passes, and which instant is shown. Absent fields leave their settings unchanged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Transport {
@@ -118,7 +118,7 @@ pub struct Transport {
     pub live: Option<bool>,
 }
 
-/// How the surface is played and shown. Absent fields leave things as they are.
+/// How the surface is played and shown. Absent fields leave their settings unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
@@ -126,12 +126,12 @@ pub struct Settings {
     pub method: Option<String>,
     /// Name of the effect that a touch triggers.
     pub effect: Option<String>,
-    /// The window, in ms; 0 or `null` for the one that the surface suggests.
+    /// The window, in ms; 0 or `null` for the one recommended for the surface.
     #[serde(deserialize_with = "or_none")]
     pub window_ms: Option<f64>,
     /// Pulses per second while a finger rests.
     pub rate_hz: Option<f64>,
-    /// `displacement` or `velocity`.
+    /// Quantity that pictures show: `displacement` or `velocity`.
     pub quantity: Option<String>,
     /// Whether resting fingers load the simulated surface.
     pub load: Option<bool>,
@@ -213,13 +213,13 @@ pub struct Job {
     pub name: Option<String>,
 }
 
-/// Reason for which a message is refused.
+/// Reason why a message is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum Refused {
     /// The message is too long.
     #[error("message: expected at most {LONGEST} bytes, found {found}")]
     Long {
-        /// Its length in bytes.
+        /// Length of the message, in bytes.
         found: usize,
     },
     /// The message is not one of the protocol.

@@ -28,17 +28,18 @@ pub struct Head {
     pub pane: usize,
     /// Number of pictures side by side.
     pub panes: usize,
-    /// Number of cells across.
+    /// Number of cells along x.
     pub columns: usize,
-    /// Number of cells upward.
+    /// Number of cells along y.
     pub rows: usize,
-    /// Value of one count of a cell, in m or m/s.
+    /// Field, in m or m/s, that corresponds to one count of a cell.
     pub scale: f32,
-    /// The instant, in s of the surface's clock.
+    /// The instant that is shown, in s of the surface's clock.
     pub time_s: f64,
-    /// `displacement` or `velocity`.
+    /// Quantity that is shown: `displacement` or `velocity`.
     pub quantity: &'static str,
-    /// Whether this is the instant of the strongest motion since the frame before, rather than the one asked for.
+    /// Whether the picture shows the instant of the strongest motion since the frame before, rather than the
+    /// instant requested.
     pub strobed: bool,
     /// Largest magnitude of all cells, in m or m/s.
     pub peak: f32,
@@ -48,9 +49,9 @@ pub struct Head {
     pub fingers: Vec<Resting>,
     /// Places of the targets, in mm.
     pub targets: Vec<[f64; 2]>,
-    /// Samples of each trace.
+    /// Number of samples of each trace.
     pub samples: usize,
-    /// Duration of the traces, in s, up to the instant.
+    /// Duration of the traces, in s; they end at the instant shown.
     pub span_s: f64,
     /// Names and places of the traces.
     pub traces: Vec<Strip>,
@@ -74,7 +75,7 @@ pub struct Strip {
     pub name: String,
     /// Place of the trace, in mm.
     pub at_mm: [f64; 2],
-    /// Value of one count of a sample, in m or m/s.
+    /// Motion, in m or m/s, that corresponds to one count of a sample.
     pub scale: f32,
 }
 

@@ -17,7 +17,7 @@ impl<'v> Node<'v> {
         Self { value, file, path: String::new() }
     }
 
-    /// An error that says where it is, and quotes what is there.
+    /// An error that says where in the file this value is, and quotes it.
     pub fn refuse(&self, expected: impl Into<String>) -> StoreError {
         let found = match self.value {
             Value::Object(_) => "an object".to_owned(),
@@ -40,17 +40,17 @@ impl<'v> Node<'v> {
         Self { value, file: self.file, path }
     }
 
-    /// The value of a key, if it is there and not null.
+    /// The value of a key, if the key is there and its value is not null.
     pub fn get(&self, key: &str) -> Option<Self> {
         self.value.get(key).filter(|value| !value.is_null()).map(|value| self.child(key, value))
     }
 
-    /// The value of a key that must be there.
+    /// The value of a key; an error if the key is missing.
     pub fn require(&self, key: &str, expected: &str) -> Result<Self, StoreError> {
         self.get(key).ok_or_else(|| self.error(format!("`{key}`, {expected}"), "no such key"))
     }
 
-    /// The items of a list under a key that must be there.
+    /// The items of the list under a key; an error if the key is missing.
     pub fn items(&self, key: &str) -> Result<Vec<Self>, StoreError> {
         let list = self.require(key, "a list")?;
         let Value::Array(items) = list.value else { return Err(list.refuse("a list")) };
@@ -58,28 +58,28 @@ impl<'v> Node<'v> {
         Ok(items.iter().enumerate().map(item).collect())
     }
 
-    /// A number within limits.
+    /// The value as a number within limits; otherwise an error.
     pub fn number(&self, [least, greatest]: [f64; 2]) -> Result<f64, StoreError> {
         let number = self.value.as_f64().filter(|value| (least..=greatest).contains(value));
         number.ok_or_else(|| self.refuse(format!("a number from {least} to {greatest}")))
     }
 
-    /// A number under a key that must be there.
+    /// The number under a key; an error if the key is missing.
     pub fn number_of(&self, key: &str, range: [f64; 2]) -> Result<f64, StoreError> {
         self.require(key, &format!("a number from {} to {}", range[0], range[1]))?.number(range)
     }
 
-    /// A number under a key, with a default.
+    /// The number under a key, or the default if the key is missing.
     pub fn number_or(&self, key: &str, default: f64, range: [f64; 2]) -> Result<f64, StoreError> {
         self.get(key).map_or(Ok(default), |node| node.number(range))
     }
 
-    /// A text, as the file has it.
+    /// The value as a text; an error if it is none.
     pub fn text(&self) -> Result<&'v str, StoreError> {
         self.value.as_str().ok_or_else(|| self.refuse("a text"))
     }
 
-    /// A text that is one of some known ones.
+    /// The value as one of the known texts; otherwise an error.
     pub fn one_of(&self, known: &[&'static str]) -> Result<&'static str, StoreError> {
         let found = self.text()?;
         let expected = || format!("one of {}{}", known.join(", "), super::near(found, known));
