@@ -5,7 +5,7 @@ use clap::Args;
 use std::path::PathBuf;
 use unripple_tasks::DeviceAsk;
 
-/// Options of the device: its kind, and options of each kind, which the others ignore.
+/// Options of the device: its kind, and options for each kind, which are ignored for the other kinds.
 #[derive(Clone, Debug, Args)]
 pub struct DeviceOptions {
     /// The device that plays and records.
@@ -21,7 +21,7 @@ pub struct DeviceOptions {
     /// hardware.
     #[arg(long, help_heading = heading::JACK)]
     pub freewheel: bool,
-    /// Card: the playback device, as `unripple devices` lists it; by default the system's.
+    /// Card: the playback device, as `unripple devices` lists it; by default the system's default device.
     #[arg(long, value_name = "ID", help_heading = heading::CARD)]
     pub card: Option<String>,
     /// Card: the recording device, of the same card; by default the playback device.
@@ -37,8 +37,8 @@ pub struct DeviceOptions {
     /// the probe. May include `reference`.
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', help_heading = heading::TAPE)]
     pub tape_inputs: Vec<String>,
-    /// JACK, card, tape: drive at an actuator when a sample is at full scale, in A, V or N. By default it is taken to be the
-    /// surface's limit, and absolute levels are unknown.
+    /// JACK, card, tape: drive of an actuator, in A, V or N, when a sample is at full scale. By default the surface's drive limit
+    /// is assumed, and absolute levels are unknown.
     #[arg(long, value_name = "DRIVE", allow_negative_numbers = true, help_heading = heading::DEVICE)]
     pub output_scale: Option<f64>,
     /// Virtual: simulate a surface that differs randomly from SURFACE, by this seed, in noise, gains, places, tension, damping
@@ -88,7 +88,7 @@ pub struct CalibrateOptions {
     /// How points are measured.
     #[arg(long, value_enum, default_value_t, help_heading = heading::POINTS)]
     pub by: WayName,
-    /// Number of recordings of each point, which are averaged, or number of taps: 1 to 99.
+    /// Number of recordings of each point, which are averaged, or of taps at each point: 1 to 99.
     #[arg(long, value_name = "N", default_value_t = 1, help_heading = heading::POINTS)]
     pub repeats: usize,
     /// Length of an actuator's sweep, in ms; by default 500, or longer for a surface with a long decay time.
@@ -100,14 +100,15 @@ pub struct CalibrateOptions {
     /// Level of the sweeps, as a fraction of the surface's drive limit.
     #[arg(long, value_name = "SHARE", default_value_t = 1.0, allow_negative_numbers = true, help_heading = heading::SWEEPS)]
     pub level: f64,
-    /// Use CHANNEL for the actuator, sensor, probe or reference NAME, where channel and NAME are not the same. Repeatable.
+    /// Use the channel CHANNEL for the actuator, sensor, probe or reference called NAME, if the channel has another name.
+    /// Repeatable.
     #[arg(long, value_name = "NAME=CHANNEL", help_heading = heading::WIRING)]
     pub wire: Vec<String>,
     /// Value of an input at full scale: in m/s for the probe, in the sensor's unit for an actuator; negative if the input is
-    /// reversed. Without a name it applies to all inputs. Repeatable. Without it absolute levels are unknown.
+    /// reversed. Without a name it applies to all inputs. Repeatable. Without this option absolute levels are unknown.
     #[arg(long, value_name = "[NAME=]SCALE", allow_hyphen_values = true, help_heading = heading::WIRING)]
     pub input_scale: Vec<String>,
-    /// Leave out this actuator, for example because it is dead. Repeatable.
+    /// Do not use the actuator of this name, for example because it is dead. Repeatable.
     #[arg(long, value_name = "NAME", help_heading = heading::WIRING)]
     pub without: Vec<String>,
     /// Delay of the probe relative to the sensors, in ms, such as that of a vibrometer's decoder; by default it is estimated.

@@ -14,16 +14,16 @@ pub struct DriftOptions {
     /// The device that plays and records.
     #[command(flatten)]
     pub device: DeviceOptions,
-    /// Duration of the sequence of pings, in s: two and a half pings a second, too weak to be felt.
+    /// Duration of the sequence of pings, in s. Pings are test signals too weak to be felt, two and a half per second.
     #[arg(long, value_name = "S", default_value_t = 4.0, allow_negative_numbers = true)]
     pub seconds: f64,
     /// Largest change of tension that is searched for, up and down, in per cent.
     #[arg(long, value_name = "PERCENT", default_value_t = 8.0, allow_negative_numbers = true)]
     pub within_percent: f64,
-    /// Virtual: deviation of the simulated sheet's tension from SURFACE, in per cent.
+    /// Virtual: deviation of the simulated sheet's tension at the start from that in SURFACE, in per cent.
     #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true, help_heading = heading::VIRTUAL)]
     pub changed_percent: f64,
-    /// Virtual: change of the simulated sheet's tension, in per cent a minute.
+    /// Virtual: rate at which the simulated sheet's tension changes, in per cent per minute.
     #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true, help_heading = heading::VIRTUAL)]
     pub changing_percent_per_min: f64,
 }

@@ -1,10 +1,10 @@
 //! Examples at the end of each command's help.
 
-/// For `check`: a file of one's own, since built-in ones have no faults.
+/// For `check`: a user's file, since built-in surfaces have no faults.
 pub const CHECK: &str = "Examples:
   unripple check my-surface.toml";
 
-/// For `materials`: all, and one whose name has a space.
+/// For `materials`: all materials, and one whose name has a space.
 pub const MATERIALS: &str = "Examples:
   unripple materials
   unripple materials 'soda-lime glass'";
@@ -14,12 +14,12 @@ pub const DESIGN: &str = "Examples:
   unripple design hudin-2012
   unripple design hudin-2012 --set sheet.tension_n_per_m=300 --json";
 
-/// For `modes`: a band and an accuracy.
+/// For `modes`: a highest frequency and an accuracy.
 pub const MODES: &str = "Examples:
   unripple modes hudin-2012
   unripple modes my-surface.toml --max-hz 1000 --accuracy 1e-4";
 
-/// For `respond`: the spacing of the guide.
+/// For `respond`: a library of a built-in surface.
 pub const RESPOND: &str = "Examples:
   unripple respond hudin-2012 --grid-mm 5 -o film.zarr";
 
@@ -78,22 +78,22 @@ pub const PLAY: &str = "Examples:
     unripple play hudin-2012 --tuio --record session.jsonl
     unripple play hudin-2012 --session session.jsonl --keep-drive drive.wav";
 
-/// For `drift`: simulated and real.
+/// For `drift`: on a simulated sheet and on a real one.
 pub const DRIFT: &str = "Examples:
   unripple drift hudin-2012 --changed-percent 2
   unripple drift rig.zarr --device jack";
 
-/// For `view`: alone, and for other machines.
+/// For `view`: on this machine alone, and for other machines.
 pub const VIEW: &str = "Examples:
   unripple view
   unripple view my-surface.toml --listen 0.0.0.0 --no-browser";
 
-/// For `fit`: the model alone, and a library of it.
+/// For `fit`: the parameters of the model alone, and a library of its responses.
 pub const FIT: &str = "Examples:
   unripple fit rig.zarr
   unripple fit rig.zarr --grid-mm 5 -o fitted.zarr";
 
-/// For `devices`: what is here, and a server with a name.
+/// For `devices`: the devices of this machine, and a JACK server that is not the default one.
 pub const DEVICES: &str = "Examples:
   unripple devices
   unripple devices --server stage";
@@ -107,7 +107,7 @@ pub const DOCTOR: &str = "Examples:
 pub const REPRODUCE: &str = "Examples:
   unripple reproduce -o paper";
 
-/// For `rerun`: the folder of the run itself stays.
+/// For `rerun`: a new folder, so that the folder of the earlier run stays.
 pub const RERUN: &str = "Examples:
   unripple rerun out/report.json -o again";
 
@@ -115,7 +115,7 @@ pub const RERUN: &str = "Examples:
 pub const COMPLETIONS: &str = "Examples:
   unripple completions bash > ~/.local/share/bash-completion/completions/unripple";
 
-/// For `man`: a folder of its own.
+/// For `man`: a new folder for the pages.
 pub const MAN: &str = "Examples:
   unripple man -o man";
 

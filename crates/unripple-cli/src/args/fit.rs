@@ -8,7 +8,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = examples::FIT)]
 pub struct FitOptions {
-    /// A library from `calibrate` on a device whose actuators can sense: its last points are the responses between actuators.
+    /// A library that `calibrate` measured with actuators that also sense: it contains the responses between actuators, to which
+    /// the model is fitted.
     #[arg(value_name = "LIBRARY")]
     pub library: String,
     /// Spacing of a square grid of points for the responses of the fitted model, in mm.
@@ -20,7 +21,8 @@ pub struct FitOptions {
     /// Largest number of unknown point masses to fit.
     #[arg(long, value_name = "N", default_value_t = 3, help_heading = heading::MODEL)]
     pub strays: usize,
-    /// Fit variations of tension over the sheet of up to so many half waves, along x and y together; 0 for uniform tension.
+    /// Largest number of half waves, along x and y together, in the fitted variation of tension over the sheet; 0 for uniform
+    /// tension.
     #[arg(long, value_name = "N", default_value_t = 3, help_heading = heading::MODEL)]
     pub profile: usize,
     /// Write the library even if the model is doubtful; the library is then marked, and commands that use it warn.

@@ -2,9 +2,9 @@
 
 /// Options that every command has.
 pub const EVERY: &str = "For every command";
-/// Of which surfaces something is asked.
+/// Surfaces that are compared.
 pub const SURFACES: &str = "Surfaces";
-/// What is to be in focus, or looked at.
+/// Targets of a focus, or places that are evaluated.
 pub const TARGETS: &str = "Targets";
 /// How strong a drive is.
 pub const LEVEL: &str = "Level";
@@ -12,9 +12,9 @@ pub const LEVEL: &str = "Level";
 pub const METHOD: &str = "Method";
 /// How long a drive or a session lasts.
 pub const TIME: &str = "Time";
-/// On what a drive is simulated.
+/// Model on which a drive is simulated.
 pub const SIMULATION: &str = "Simulation";
-/// What is written, and where.
+/// Files that are written, and where.
 pub const RESULTS: &str = "Results";
 /// The device that plays and records.
 pub const DEVICE: &str = "Device";
@@ -26,17 +26,17 @@ pub const CARD: &str = "Device: sound card";
 pub const TAPE: &str = "Device: tape (recordings made elsewhere)";
 /// A simulated surface as the device.
 pub const VIRTUAL: &str = "Device: virtual surface";
-/// What a calibration measures.
+/// Points that a calibration measures.
 pub const POINTS: &str = "Points to measure";
-/// What a calibration plays.
+/// Signals that a calibration plays.
 pub const SWEEPS: &str = "Sweeps";
 /// Which channel each actuator, sensor and the probe is connected to, and which physical value full scale stands for.
 pub const WIRING: &str = "Wiring and scales";
-/// What the surface is compared with.
+/// The model with which a surface is compared.
 pub const MODEL: &str = "Model";
-/// What a SOFA file says of itself.
+/// Author and licence that a SOFA file contains.
 pub const SOFA: &str = "SOFA";
-/// Where touches come from.
+/// Sources of touches.
 pub const TOUCHES: &str = "Touches";
 /// How pages reach the program.
 pub const NETWORK: &str = "Network";

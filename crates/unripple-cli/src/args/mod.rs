@@ -26,7 +26,7 @@ pub use view::ViewOptions;
 
 /// Waves that meet under a fingertip: design, simulate and focus a reverberant touch surface.
 ///
-/// SURFACE is a TOML file or the name of a built-in surface, such as hudin-2012. LIBRARY is a folder of responses.
+/// SURFACE is a TOML file or the name of a built-in surface, such as hudin-2012. LIBRARY is a folder of impulse responses.
 #[derive(Debug, Parser)]
 #[command(name = "unripple", version = version(), propagate_version = true, after_help = EXITS)]
 pub struct Arguments {
@@ -37,11 +37,11 @@ pub struct Arguments {
     /// key. Repeatable.
     #[arg(long, global = true, value_name = "KEY=VALUE", help_heading = heading::EVERY)]
     pub set: Vec<String>,
-    /// Compute natural frequencies to this relative accuracy, 1e-12 to 0.1, as `--set accuracy=RATIO` does. By default 1e-6, or 1e-4
-    /// for `focus` and the like on surfaces that need a mesh.
+    /// Compute natural frequencies to this relative accuracy, 1e-12 to 0.1, as `--set accuracy=RATIO` does. By default 1e-6 for
+    /// `modes`, 1e-4 for `design`, and for other commands 1e-6, or 1e-4 if the surface needs a mesh.
     #[arg(long, global = true, value_name = "RATIO", help_heading = heading::EVERY)]
     pub accuracy: Option<String>,
-    /// Tell each stage of the work on standard error, with the time since the beginning.
+    /// Print each stage of the work on standard error, with the time since the beginning.
     #[arg(short, long, global = true, conflicts_with = "quiet", help_heading = heading::EVERY)]
     pub verbose: bool,
     /// Print nothing but warnings and errors on standard error.
@@ -75,7 +75,7 @@ pub enum Command {
     Modes(ModesOptions),
     /// Compute impulse responses from the model, as a library.
     Respond(RespondOptions),
-    /// Compute a drive that focuses on points or shapes, and simulate it; with report and pictures.
+    /// Compute a drive that focuses on points or shapes, simulate it, and write a report and pictures.
     Focus(FocusOptions),
     /// Compare methods on the same targets, on one surface or several, in one table and one picture.
     Compare(CompareOptions),
@@ -87,11 +87,13 @@ pub enum Command {
     Export(ExportOptions),
     /// Drive a surface live: touches in, waves out.
     Play(PlayOptions),
-    /// Measure whether a sheet's tension is still what its responses were made for, and whether it goes on changing.
+    /// Measure whether the tension of a sheet still has the value for which its responses were measured or computed, and whether
+    /// it is changing.
     Drift(DriftOptions),
     /// Show a surface in a browser: touch it, see its numbers, design it, compare methods.
     View(ViewOptions),
-    /// Fit the model to the responses between actuators of a calibrated library, and compute its responses anywhere.
+    /// Fit the model to the responses between the actuators of a calibrated library, and compute the fitted model's responses at
+    /// any points.
     Fit(FitOptions),
     /// List all errors of a surface file.
     Check(CheckOptions),
@@ -99,13 +101,13 @@ pub enum Command {
     Materials(MaterialsOptions),
     /// List devices that can play a drive: virtual surface, files, sound server, cards.
     Devices(DevicesOptions),
-    /// Check each stage from touch to fingertip, and say why nothing may be felt.
+    /// Check each stage from touch to fingertip, and list reasons why nothing may be felt.
     Doctor(DoctorOptions),
-    /// Reproduce the paper's table and figures beside ours, as one page.
+    /// Reproduce the table and figures of Hudin et al. (2012), with our results beside the paper's, as one page.
     Reproduce(ReproduceOptions),
     /// Run again what a report records: the same options, seeds and surfaces, on the same files.
     Rerun(RerunOptions),
-    /// Print a script with which a shell completes commands and options.
+    /// Print a script that lets a shell complete commands and options.
     Completions(CompletionsOptions),
     /// Write manual pages, one for each command.
     Man(ManOptions),
@@ -161,8 +163,8 @@ pub struct ModesOptions {
 pub struct RespondOptions {
     /// A surface file, or the name of a built-in surface.
     pub surface: String,
-    /// Spacing of the points, in mm. They lie at multiples of it along both axes; those within a quarter of it from the edge are
-    /// left out.
+    /// Spacing of the points, in mm. Points lie at multiples of the spacing along both axes; points closer to the edge than a
+    /// quarter of the spacing are left out.
     #[arg(long, value_name = "P", allow_negative_numbers = true)]
     pub grid_mm: f64,
     /// Length of the responses in ms, at most 60 000; by default twice the window that `design` recommends.
@@ -176,17 +178,17 @@ pub struct RespondOptions {
 /// Where to focus, and how strongly.
 #[derive(Debug, Default, Args)]
 pub struct TargetOptions {
-    /// A point in mm, with an optional gain and repetition rate in Hz. Repeatable.
+    /// A point to focus on, in mm, with an optional gain and an optional repetition rate in Hz. Repeatable.
     #[arg(long, value_name = "X,Y[,GAIN[,HZ]]", allow_hyphen_values = true, help_heading = heading::TARGETS)]
     pub at: Vec<String>,
-    /// A shape in mm: an SVG file, triangle:X,Y,SIZE or circle:X,Y,R. Repeatable.
+    /// A shape to focus on, in mm: an SVG file, triangle:X,Y,SIZE or circle:X,Y,R. Repeatable.
     #[arg(long, value_name = "SHAPE", help_heading = heading::TARGETS)]
     pub shape: Vec<String>,
     /// Peak displacement at the first target, in µm. The default is the level at which no point of the sheet moves by more than
     /// about half the sheet's thickness.
     #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = heading::LEVEL)]
     pub peak_um: Option<f64>,
-    /// Felt level at the first target, in dB above the threshold of touch.
+    /// Level felt at the first target, in dB above the threshold of touch, that the drive is to reach.
     #[arg(long, value_name = "L", allow_negative_numbers = true, conflicts_with = "peak_um", help_heading = heading::LEVEL)]
     pub felt_db: Option<f64>,
     /// Drive at the surface's drive limit, even if linear theory does not hold there.
@@ -221,17 +223,18 @@ pub struct FocusOptions {
     /// Method of focusing.
     #[arg(long, value_enum, default_value_t = MethodName::TimeReversal, help_heading = heading::METHOD)]
     pub method: MethodName,
-    /// Weight of the method's own objective: 0 is time reversal, 1 the extreme of the method.
+    /// For `inverse`, `concentrate`, `limited` and `robust`: weight of the velocity that the method minimises against the drive's
+    /// energy, from 0 (time reversal) to 1 (velocity alone); by default 0.945 to 0.985, depending on the method.
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub strength: Option<f64>,
     /// For `limited`: peak velocity to reach, from that of the unconstrained drive scaled to the limit (0) to that of one-bit
     /// (1).
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub push: f64,
-    /// Largest rms of all actuators together, in the drive's unit.
+    /// Limit on the rms of all actuators together (root of the sum of their mean squares), in the drive's unit.
     #[arg(long, value_name = "RMS", allow_negative_numbers = true, help_heading = heading::LEVEL)]
     pub total_rms: Option<f64>,
-    /// For `robust`: shift of all natural frequencies to allow for, up and down, in per cent.
+    /// For `robust`: shift of all natural frequencies, up and down, that the drive must tolerate, in per cent.
     #[arg(long, value_name = "PERCENT", default_value_t = 0.5, allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub spread_percent: f64,
     /// For `felt`: minimise the rms felt elsewhere (0), the largest level felt elsewhere (1), or a mixture.
@@ -249,22 +252,22 @@ pub struct FocusOptions {
     /// How responses are interpolated for a target between the points of a library.
     #[arg(long, value_enum, default_value_t, help_heading = heading::SIMULATION)]
     pub between: BetweenName,
-    /// Compensate the decay of the waves in the drive.
+    /// For `time-reversal` and `one-bit`: how the drive compensates the decay of the waves.
     #[arg(long, value_enum, default_value_t = LossName::None, help_heading = heading::METHOD)]
     pub losses: LossName,
-    /// Length of a repeated drive in ms; by default long enough for a periodic steady state.
+    /// Length of the drive in ms if a target has a repetition rate; by default long enough for a periodic steady state.
     #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TIME)]
     pub duration_ms: Option<f64>,
     /// Simulate the drive with a finger resting at X,Y in mm; the drive itself is computed without it. Repeatable.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::SIMULATION)]
     pub finger: Vec<String>,
-    /// Compute the drive for the surface with those fingers on it.
+    /// Compute the drive for the surface with the fingers of --finger on it.
     #[arg(long, help_heading = heading::METHOD)]
     pub finger_aware: bool,
-    /// For `robust`: also allow for a tension that is off by this many per cent, up and down.
+    /// For `robust`: error of the tension, up and down, that the drive must tolerate as well, in per cent.
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub bear_tension_percent: Option<f64>,
-    /// For `robust`: also allow for a finger at X,Y in mm that may be there or not. Repeatable.
+    /// For `robust`: place X,Y in mm of a finger whose presence and absence the drive must tolerate as well. Repeatable.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::METHOD)]
     pub bear_finger: Vec<String>,
     /// Simulate the drive on this surface instead of the surface or library that it was computed for.
@@ -277,7 +280,7 @@ pub struct FocusOptions {
     /// Write no pictures.
     #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
-    /// Columns of a page that pictures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    /// Width of the pictures, in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default it depends on the picture.
     #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
     pub columns: Option<usize>,
     /// Folder for drive.wav, report.json, report.md and pictures. An existing folder is replaced only if it holds nothing but
@@ -293,7 +296,7 @@ pub struct CompareOptions {
     /// Surface files, or names of built-in surfaces.
     #[arg(required = true)]
     pub surface: Vec<String>,
-    /// Compare each surface once for each of several values of a key, as in sheet.tension_n_per_m=200,300,400.
+    /// Compare variants of each surface, one for each value of a key of its file, as in sheet.tension_n_per_m=200,300,400.
     #[arg(long, value_name = "KEY=VALUE,VALUE", help_heading = heading::SURFACES)]
     pub vary: Option<String>,
     #[command(flatten)]
@@ -312,7 +315,7 @@ pub struct CompareOptions {
     /// Write no pictures.
     #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
-    /// Columns of a page that the picture is as wide as: 1 (86 mm) or 2 (178 mm, the default).
+    /// Width of the picture, in columns of a printed page: 1 (86 mm) or 2 (178 mm, the default).
     #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
     pub columns: Option<usize>,
     /// Folder for the report and picture; without it only the table is printed.
@@ -350,13 +353,13 @@ pub struct FieldOptions {
     /// Write no pictures.
     #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
-    /// Columns of a page that pictures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    /// Width of the pictures, in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default it depends on the picture.
     #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
     pub columns: Option<usize>,
     /// Folder for the report, snapshot, map of peaks and animation; without it only the report is printed.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
-    /// Start and end of the animation in ms; by default from 6 ms before the instant to 3 ms after it.
+    /// Start and end of the animation in ms; by default from 6 ms before the evaluated instant to 3 ms after it.
     #[arg(long, value_name = "FROM,TO", allow_hyphen_values = true, help_heading = heading::RESULTS)]
     pub movie_ms: Option<String>,
     /// Frames of the animation, at most 5000; 0 for none.
@@ -375,7 +378,7 @@ pub struct ReproduceOptions {
     /// an earlier run.
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// Random placements of the actuators to average for the statistics of contrast, 2 to 10 000.
+    /// Number of random placements of the actuators over which contrast is averaged, 2 to 10 000.
     #[arg(long, value_name = "N", default_value_t = 20)]
     pub placements: usize,
 }

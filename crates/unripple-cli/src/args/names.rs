@@ -44,17 +44,17 @@ pub enum WayName {
 pub enum MethodName {
     /// The response from every actuator to the target, played backwards.
     TimeReversal,
-    /// The sign of the time-reversed response, every sample at the limit.
+    /// The sign of the time-reversed response, so that every sample is at the limit.
     OneBit,
     /// The sharpest peak that the band allows, by regularised least squares: more contrast for more energy.
     Inverse,
-    /// Least velocity elsewhere at the focal instant: several times the contrast of time reversal.
+    /// The least velocity away from the targets at the focal instant: several times the contrast of time reversal.
     Concentrate,
     /// As `concentrate`, with every sample within the drive limit, for higher peaks.
     Limited,
-    /// As `concentrate`, for a range of natural frequencies at once: for a sheet whose tension drifts.
+    /// As `concentrate`, for lower, nominal and higher natural frequencies at once: for a sheet whose tension drifts.
     Robust,
-    /// Least level felt elsewhere, over the whole time, by the fingertip's threshold.
+    /// The lowest level felt away from the targets over the whole time, weighted by the fingertip's threshold.
     Felt,
 }
 
@@ -77,9 +77,9 @@ impl MethodName {
 /// How responses are interpolated between the points of a library.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum BetweenName {
-    /// The response of the nearest point.
+    /// The response at the nearest point of the library.
     Nearest,
-    /// Linear interpolation between the points around it.
+    /// Linear interpolation between the surrounding points of the library.
     Linear,
     /// Gaussian-process regression (kriging) for a diffuse wave field.
     #[default]
@@ -103,8 +103,8 @@ impl BetweenName {
 pub enum LossName {
     /// No compensation: the paper's time reversal.
     None,
-    /// Multiply the response by e^{+t/τ}, with the one decay time of the surface.
+    /// Multiply the response by e^{+t/τ}, with the decay time τ of the surface, if it is the same for all modes.
     Uniform,
-    /// Multiply each mode by e^{+t/τ}, with its own decay time.
+    /// Multiply the response of each mode by e^{+t/τ}, with the mode's own decay time τ.
     PerMode,
 }

@@ -35,21 +35,21 @@ pub struct PlayOptions {
     /// Seconds to play; by default until interrupted, or until the recorded session ends.
     #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = heading::TIME)]
     pub seconds: Option<f64>,
-    /// Let a gain of 1 be the surface's drive limit, however far that moves the sheet. By default a gain of 1 stands for the same
-    /// level above the threshold of touch as a pulse that moves the sheet by about half its thickness.
+    /// Let a gain of 1 in an effect be the surface's drive limit, however far that moves the sheet. By default a gain of 1 stands
+    /// for the level felt of a pulse that moves the sheet by about half its thickness.
     #[arg(long, help_heading = heading::LEVEL)]
     pub full_limit: bool,
-    /// Follow the tension of the sheet while playing, from the sensor signals of the actuators.
+    /// Estimate the tension of the sheet while playing, from the sensor signals of the actuators, and compute drives for it.
     #[arg(long, help_heading = heading::METHOD)]
     pub follow_tension: bool,
-    /// Play in real time even where nothing requires it.
+    /// Play in real time even if a simulated surface and simulated or recorded touches allow to play faster.
     #[arg(long, help_heading = heading::TIME)]
     pub real_time: bool,
     /// Virtual: let the tension drift by this many per cent, up and down within a minute.
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, help_heading = heading::VIRTUAL)]
     pub drift_percent: Option<f64>,
-    /// Store the drive that was played as a WAV file in the actuators' unit; of a run longer than a minute, the first minute. The file of
-    /// an earlier run is replaced.
+    /// Store the drive that was played as a WAV file in the actuators' unit; only the first minute is stored. The file of an
+    /// earlier run is replaced.
     #[arg(long, value_name = "WAV", help_heading = heading::RESULTS)]
     pub keep_drive: Option<PathBuf>,
 }
@@ -63,13 +63,13 @@ pub struct TouchOptions {
     /// Seed of the simulated fingers.
     #[arg(long, value_name = "SEED", default_value_t = 1, help_heading = heading::TOUCHES)]
     pub seed: u64,
-    /// Receive TUIO 1.1, TUIO 2.0 and OSC at this UDP port, 3333 if none is given.
+    /// Receive TUIO 1.1, TUIO 2.0 and OSC at this UDP port, 3333 if the option has no value.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "3333", help_heading = heading::TOUCHES)]
     pub tuio: Option<u16>,
-    /// Accept WebSocket clients at this port.
+    /// Accept WebSocket clients at this TCP port, 8765 if the option has no value.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8765", help_heading = heading::TOUCHES)]
     pub websocket: Option<u16>,
-    /// Address to listen at; by default only this machine can connect.
+    /// Network address at which touches are received; by default only this machine can connect.
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1", help_heading = heading::TOUCHES)]
     pub listen: IpAddr,
     /// A multi-touch screen, such as /dev/input/event5. Repeatable.
@@ -109,10 +109,10 @@ pub struct DoctorOptions {
     /// The device to check.
     #[command(flatten)]
     pub device: DeviceOptions,
-    /// UDP port at which touches would arrive.
+    /// UDP port to check, at which `play` would receive touches.
     #[arg(long, value_name = "PORT", default_value_t = 3333)]
     pub tuio: u16,
-    /// Address at which the port would be opened.
+    /// Network address at which `play` would open that port.
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
     pub listen: IpAddr,
 }

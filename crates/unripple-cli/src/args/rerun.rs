@@ -8,9 +8,10 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = examples::RERUN)]
 pub struct RerunOptions {
-    /// A report.json of an earlier run, or what --json printed.
+    /// The report.json of an earlier run, or a file with what --json printed.
     pub report: PathBuf,
-    /// Where results go: a folder, or what the command calls its output. Without it only the report is printed.
+    /// Folder for the results, or another output as the repeated command's -o describes it. Without this option only the report
+    /// is printed.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
 }

@@ -18,17 +18,18 @@ pub struct ViewOptions {
     /// Method of focusing to begin with; the page can change it.
     #[arg(long, value_enum, default_value = "time-reversal")]
     pub method: MethodName,
-    /// Follow the tension of the sheet from the sensor signals of the actuators, on a real device or with --unknowns.
+    /// Estimate the tension of the sheet from the sensor signals of the actuators and compute drives for it, on a real device or
+    /// with --unknowns.
     #[arg(long)]
     pub follow_tension: bool,
     /// TCP port; 0 for any free one.
     #[arg(long, value_name = "PORT", default_value_t = 8417, help_heading = heading::NETWORK)]
     pub port: u16,
     /// Address to listen at, such as 0.0.0.0, so that other machines can see and touch the surface. The printed address then
-    /// holds a token.
+    /// contains an access token.
     #[arg(long, value_name = "ADDRESS", help_heading = heading::NETWORK)]
     pub listen: Option<IpAddr>,
-    /// The token, 8 to 64 letters and digits; by default a new one each time.
+    /// The access token in the address, 8 to 64 letters and digits; by default a new one at each start.
     #[arg(long, value_name = "TOKEN", help_heading = heading::NETWORK)]
     pub token: Option<String>,
     /// Let pages of this origin show the page in a frame: scheme://host[:port], where the port of localhost and 127.0.0.1 may be *,
@@ -44,8 +45,8 @@ pub struct ViewOptions {
     /// Seconds to run; by default until interrupted.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub seconds: Option<f64>,
-    /// End when standard input ends: for a program that starts this one through a pipe, so that this one ends with it, even if it
-    /// crashes.
+    /// End when standard input ends. This is for a program that starts the viewer through a pipe: the viewer then ends with that
+    /// program, even if the program crashes.
     #[arg(long)]
     pub until_input_ends: bool,
 }
