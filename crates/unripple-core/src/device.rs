@@ -14,12 +14,14 @@ pub trait Device: Send {
     /// The device's channels, sample rate and block length.
     fn layout(&self) -> &Layout;
 
-    /// The state of the device: whether blocks pass, how many have passed, and how many were late or lost.
+    /// The state of the device: whether blocks are being exchanged, how many have been, and how many were
+    /// late or lost.
     fn status(&self) -> Status;
 
-    /// Plays one block and records one, blocking as long as the device's clock takes. `drive` holds [`Layout::block`]
-    /// samples for each output, one output after another; `heard` receives as many for each input. The recorded signal is
-    /// the response to the drive of this and earlier blocks, delayed by the round-trip latency.
+    /// Plays one block and records one; calls return at the pace of the device's clock. `drive` holds
+    /// [`Layout::block`] samples for each output, one output after another; `heard` receives the same
+    /// number of recorded samples for each input. The recorded signal is the response to the drive of this
+    /// and earlier blocks, delayed by the round-trip latency.
     ///
     /// # Errors
     /// [`DeviceError::Size`] for slices of another length; [`DeviceError::Lost`] once the device is gone;
@@ -27,17 +29,18 @@ pub trait Device: Send {
     fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError>;
 
     /// Installs a callback that the device calls in each of its cycles from now on, instead of
-    /// [exchanging](Device::exchange) blocks. [`Device::dismiss`] returns it.
+    /// [exchanging](Device::exchange) blocks. [`Device::remove_work`] returns it.
     ///
     /// # Errors
     /// Returns the callback itself if the device cannot call it: most devices have no clock of their own.
-    fn employ(&mut self, work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
+    fn install_work(&mut self, work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
         Err(work)
     }
 
-    /// Removes the callback that [`Device::employ`] installed and returns it, once the current cycle is over. `None` if no callback was
-    /// installed, or if the device has stopped calling it and does not release it.
-    fn dismiss(&mut self) -> Option<Box<dyn Work>> {
+    /// Removes the callback that [`Device::install_work`] installed and returns it, once the current cycle is
+    /// over. `None` if no callback was installed, or if the device has stopped calling it and does not
+    /// release it.
+    fn remove_work(&mut self) -> Option<Box<dyn Work>> {
         None
     }
 
@@ -46,17 +49,18 @@ pub trait Device: Send {
     ///
     /// # Errors
     /// [`DeviceError::Lost`] once the device is gone for good.
-    fn tend(&mut self) -> Result<Duration, DeviceError> {
+    fn check(&mut self) -> Result<Duration, DeviceError> {
         match self.status().state {
             State::Lost(why) => Err(DeviceError::Lost { device: self.layout().device.clone(), why }),
-            _ => Ok(TEND),
+            _ => Ok(CHECK_INTERVAL),
         }
     }
 }
 
-/// Default interval between checks of a device that calls a callback ([`Device::tend`]): its loss is noticed at most this
-/// late. With twice this interval, it is noticed twice as late; the drive itself does not wait for it.
-pub const TEND: Duration = Duration::from_millis(100);
+/// Default interval between checks of a device that calls a callback ([`Device::check`]): the longest time
+/// until the loss of the device is noticed. Twice this interval doubles that time; playback does not wait
+/// for the checks.
+pub const CHECK_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Name of the input that records a velocity probe on the surface, in [`Layout::inputs`].
 pub const PROBE: &str = "probe";
@@ -78,16 +82,17 @@ pub struct Layout {
     pub full_scale: f64,
 }
 
-/// The status of a device: its state, and the numbers of blocks passed and lost.
+/// The status of a device: its state, and the numbers of blocks exchanged and lost.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
-    /// Whether blocks pass, and if not, why.
+    /// Whether blocks are being exchanged, and if not, the reason.
     pub state: State,
     /// Blocks exchanged so far.
     pub blocks: u64,
-    /// Blocks that came late or were lost so far.
+    /// Number of blocks so far that came late or were lost.
     pub lost: u64,
-    /// Delay of the drive given to [`Device::exchange`] until it leaves the device, in samples, as far as it is known.
+    /// Delay in samples, as far as it is known, from the call of [`Device::exchange`] with a block until
+    /// that block leaves the device.
     pub waiting: u64,
     /// What the sound server behind the device reports; `None` without a server.
     pub server: Option<Server>,
@@ -96,7 +101,7 @@ pub struct Status {
 /// What a sound server reports: its period, latencies, and counts of late cycles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Server {
-    /// Present number of samples per cycle; a server may change it at any time.
+    /// Number of samples per cycle at present; a server may change it at any time.
     pub period: usize,
     /// Real-time priority (1 to 99) of the thread on which the server calls this client; `None` without real-time scheduling.
     /// Other threads of the client should have a lower one.
@@ -115,15 +120,15 @@ pub struct Server {
     pub skipped: u64,
 }
 
-/// Whether blocks pass, and if not, why.
+/// Whether a device is exchanging blocks, and if not, the reason.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum State {
-    /// Blocks pass at the device's rate.
+    /// Blocks are being exchanged at the device's rate.
     #[default]
     Running,
-    /// No block has passed for a while, for this reason; the device may recover.
+    /// No block has been exchanged for a while, for the reason in the string; the device may recover.
     Stalled(String),
-    /// No block will pass any more, for this reason.
+    /// No block will be exchanged any more, for the reason in the string.
     Lost(String),
 }
 
@@ -140,32 +145,32 @@ impl fmt::Display for State {
 /// Why a device did not exchange a block.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DeviceError {
-    /// A buffer does not have the size of the device's block.
+    /// The length of a buffer is not that of a block of the device.
     #[error("device `{device}`: expected {expected} samples of {what}, found {found}")]
     Size {
-        /// Name of the device, as [`Layout::device`] says it.
+        /// Name of the device, as in [`Layout::device`].
         device: String,
-        /// Which buffer: `drive` or `heard`.
+        /// Which buffer has the wrong length: `drive` or `heard`.
         what: &'static str,
-        /// Number of samples there should be.
+        /// Required length of the buffer, in samples.
         expected: usize,
-        /// Number of samples there are.
+        /// Actual length of the buffer, in samples.
         found: usize,
     },
-    /// The device is gone for good, for the reason given.
+    /// The device is gone for good.
     #[error("device `{device}` is lost: {why}")]
     Lost {
-        /// Name of the device, as [`Layout::device`] says it.
+        /// Name of the device, as in [`Layout::device`].
         device: String,
-        /// What happened, in words for people.
+        /// The reason, in words for people.
         why: String,
     },
-    /// No block passed within the device's time limit.
+    /// No block was exchanged within the device's time limit.
     #[error("device `{device}` stalled: {why}")]
     Stalled {
-        /// Name of the device, as [`Layout::device`] says it.
+        /// Name of the device, as in [`Layout::device`].
         device: String,
-        /// What happened, in words for people.
+        /// The reason, in words for people.
         why: String,
     },
 }

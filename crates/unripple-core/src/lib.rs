@@ -50,7 +50,7 @@ mod touch;
 mod uneven;
 
 pub use cycle::{Cycle, Work};
-pub use device::{Device, DeviceError, Layout, PROBE, Server, State, Status, TEND};
+pub use device::{CHECK_INTERVAL, Device, DeviceError, Layout, PROBE, Server, State, Status};
 pub use drive::Drive;
 pub use error::CoreError;
 pub use laminate::{Laminate, Layer};

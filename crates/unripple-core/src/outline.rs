@@ -51,7 +51,7 @@ impl Edges {
 pub struct Hole {
     /// The sides of the hole, in order, placed so that the lower-left corner of their bounding box is at the origin.
     pub sides: Vec<Side>,
-    /// Position of that lower-left corner on the sheet, in metres.
+    /// Position on the sheet of the lower-left corner of the hole's bounding box, in metres.
     pub at: Point,
     /// The edge conditions of the sides.
     pub edges: Edges,
@@ -91,7 +91,7 @@ impl Hole {
     }
 }
 
-/// A closed boundary curve of the sheet, run through so that the sheet lies to its left.
+/// A closed boundary curve of the sheet, oriented so that the sheet lies to its left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loop {
     /// The sides in order, and the edge condition of each.
@@ -121,13 +121,14 @@ impl Outline {
         self
     }
 
-    /// The same outline with one hole more.
+    /// The same outline with `hole` added to its holes.
     pub fn with_hole(mut self, hole: Hole) -> Self {
         self.holes.push(hole);
         self
     }
 
-    /// All boundary curves with the sheet to their left: the outer one anticlockwise, then those of the holes clockwise.
+    /// All boundary curves, oriented so that the sheet lies to their left: the outer one anticlockwise,
+    /// then those of the holes clockwise.
     pub fn loops(&self) -> Vec<Loop> {
         let held = |sides: Vec<Side>, edges: &Edges| {
             sides.into_iter().enumerate().map(|(i, side)| (side, edges.of(i))).collect::<Vec<_>>()
@@ -228,14 +229,15 @@ impl Outline {
         self.edges.of(i)
     }
 
-    /// Total length of the free and elastic edges, those of holes too, in metres.
+    /// Total length of the free and elastic edges in metres, including those of holes.
     pub fn free_length(&self) -> f64 {
         let sides = self.loops().into_iter().flat_map(|rim| rim.sides);
         sides.filter(|(_, edge)| edge.moves()).map(|(side, _)| side.length()).sum()
     }
 
-    /// Whether some edge, however short, resists displacement: without one, the whole sheet can move as a rigid body.
-    pub fn holds(&self) -> bool {
+    /// Whether some edge, however short, is not free but resists displacement; if none does, the whole
+    /// sheet can move as a rigid body.
+    pub fn resists_displacement(&self) -> bool {
         let fixed = |edge: Edge| match edge {
             Edge::Clamped | Edge::Supported => true,
             Edge::Elastic { lift, .. } => lift > 0.0,

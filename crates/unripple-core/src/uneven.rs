@@ -1,8 +1,9 @@
-//! Deviations of a sheet from uniform and isotropic: orthotropy, profiles of its properties, attached masses.
+//! Deviations of a sheet from a uniform, isotropic one: orthotropy, profiles of its properties, attached
+//! masses.
 
 use crate::Point;
 
-/// Deviations of a sheet from uniform and isotropic. The default is none: a uniform, isotropic sheet.
+/// Deviations of a sheet from a uniform, isotropic one. The default is no deviation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Uneven {
     /// Orthotropy: a different stiffness along and across the grain of the material.
@@ -18,17 +19,18 @@ pub struct Uneven {
 }
 
 impl Uneven {
-    /// Whether there are no deviations: the sheet is uniform and isotropic.
-    pub fn is_nothing(&self) -> bool {
+    /// Whether the sheet is uniform and isotropic: none of the deviations is present.
+    pub fn is_uniform(&self) -> bool {
         *self == Self::default()
     }
 }
 
-/// The elastic constants of an orthotropic sheet that are not in [`Sheet`](crate::Sheet). Its Young's modulus is the one along the
-/// grain, its Poisson's ratio the one for stress along the grain.
+/// The elastic constants that an orthotropic sheet has in addition to those in [`Sheet`](crate::Sheet).
+/// There, Young's modulus is the one along the grain, and Poisson's ratio the one for stress along the
+/// grain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
-    /// Direction of the grain (of a film, the machine direction), in radians from x.
+    /// Direction of the grain in radians from the x axis; for a film, the machine direction.
     pub direction: f64,
     /// Young's modulus across the grain, in Pa.
     pub young_across: f64,
@@ -115,7 +117,7 @@ fn weights(place: f64, nodes: usize) -> ([usize; 4], [f64; 4]) {
 /// A mass or disc fixed to the sheet, which scatters waves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scatterer {
-    /// Position of its centre, in metres.
+    /// Position of the centre, in metres.
     pub at: Point,
     /// Point mass or disc, with its constants.
     pub kind: ScattererKind,
@@ -128,15 +130,15 @@ pub enum ScattererKind {
     Mass(f64),
     /// A disc glued to the sheet: it adds mass, and stiffness as a laminate with the sheet.
     Disc {
-        /// Its radius, in metres.
+        /// Radius of the disc, in metres.
         radius: f64,
-        /// Its thickness, in metres.
+        /// Thickness of the disc, in metres.
         thickness: f64,
-        /// Its Young's modulus, in Pa.
+        /// Young's modulus of the disc, in Pa.
         young: f64,
-        /// Its density, in kg/m³.
+        /// Density of the disc, in kg/m³.
         density: f64,
-        /// Its Poisson's ratio.
+        /// Poisson's ratio of the disc.
         poisson: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! A true surface that differs from its model, from a seed.
+//! A true surface that differs from its model at random, determined by a seed.
 
 use crate::{DevicesError, Interface};
 use std::f64::consts::{PI, TAU};
@@ -22,8 +22,8 @@ const BLOCK: usize = 64;
 const LOWEST: f64 = 1e-3;
 const NODES_APART: f64 = 1.1;
 
-/// Differences of a true surface from its model, drawn at random: none of it is in the surface file. One seed
-/// gives one truth.
+/// Differences of a true surface from its model, which the surface file does not contain. They are drawn at
+/// random; equal seeds give equal differences.
 ///
 /// ```
 /// use unripple_devices::Perturbation;
@@ -49,18 +49,18 @@ pub struct Perturbation {
     pub snr_db: f64,
     /// Root mean square of the error of each drive's and each sensor's gain, as a share.
     pub gain: f64,
-    /// Distance of each actuator from its stated place, in m, in a random direction.
+    /// Distance of each actuator from its place in the surface file, in m, in a random direction.
     pub misplacement: f64,
     /// Largest deviation of the tension from the nominal one, up or down, as a share: smooth over the sheet, 0 on average.
     pub tension: f64,
-    /// The true law of damping: factors of the nominal decay time against frequency as a share of the band's top,
-    /// ascending; linear between, constant beyond. Empty for the nominal law.
+    /// The true law of damping, as pairs of a frequency (a share of the band's top, ascending) and a factor
+    /// on the nominal decay time; linear between pairs, constant beyond. Empty for the nominal law.
     pub decay: Vec<(f64, f64)>,
     /// Stray point masses, in kg, at random places.
     pub masses: Vec<f64>,
-    /// Mass that rides on the sheet with each actuator, in kg.
+    /// Additional mass on the sheet at each actuator, in kg, which moves with the sheet.
     pub actuator_mass: f64,
-    /// Seed of everything random.
+    /// Seed of all random numbers.
     pub seed: u64,
 }
 
@@ -86,9 +86,9 @@ impl Default for Perturbation {
 pub struct Truth {
     /// The true surface, with the true places of actuators and masses.
     pub surface: Surface,
-    /// Factor of each actuator's drive.
+    /// Gain of each actuator, a factor on its drive.
     pub drive_gains: Vec<f64>,
-    /// Factor of each sensor.
+    /// Gain of each sensor, a factor on its signal.
     pub sensor_gains: Vec<f64>,
     /// Signal-to-noise ratio at the inputs, in dB.
     pub snr_db: f64,
@@ -138,7 +138,8 @@ impl Perturbation {
         }
     }
 
-    /// The profile of tension: what the file has, times a smooth random field whose waves are no shorter than a side.
+    /// The profile of tension: that of the surface file, times a smooth random field whose waves are no
+    /// shorter than a side.
     fn vary(&self, surface: &Surface, random: &mut Random) -> Result<Profile, DevicesError> {
         let (width, height) = surface.outline.extent();
         let waves: Vec<[f64; 4]> = [(0, 1), (1, 0), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2)]
@@ -237,12 +238,13 @@ impl Perturbation {
 }
 
 impl Truth {
-    /// Relative accuracy of the frequencies of [`Truth::modes`]. Point masses make finite elements converge slowly: a hundred times less
-    /// would take ten to thirty times as long, and make the simulation no more realistic.
+    /// Relative accuracy of the frequencies of [`Truth::modes`]. Point masses make finite elements converge
+    /// slowly: a value a hundred times smaller would take ten to thirty times as long, and make the
+    /// simulation no more realistic.
     pub const ACCURACY: f64 = 1e-4;
 
-    /// The modes of the true surface up to a frequency (Hz), or as far as a virtual device needs them. That takes seconds, so solve them
-    /// once and share them.
+    /// Computes the modes of the true surface up to a frequency (Hz), or up to the one that a virtual device
+    /// needs. That takes seconds, so compute them once and share them.
     ///
     /// # Errors
     /// Those of [`Modes::solve`].
@@ -251,7 +253,7 @@ impl Truth {
         Ok(Arc::new(Modes::solve(&self.surface, top, Self::ACCURACY)?))
     }
 
-    /// Root mean square of the noise on each sensor and on the probe, in their own units.
+    /// Root mean square of the noise on each sensor, in the sensors' unit, and on the probe, in m/s.
     ///
     /// The signal, of which `snr_db` gives the ratio, is that of one actuator that sweeps the band at the drive limit L: white of
     /// variance L²/2 over the band B, of which a mode passes L²/(2B) · (w_a w_i)²/(8σ), by Parseval's theorem and ∫h² = w²/(4σ). It is
@@ -290,7 +292,7 @@ impl Truth {
         let surface = &self.surface;
         let (sheet, rate, [low, high]) = (&surface.sheet, surface.emission.rate, surface.emission.band);
         let mass = sheet.density * sheet.thickness * surface.outline.area();
-        let plant = Plant::bearing(surface, modes.clone(), rate)?;
+        let plant = Plant::with_residual_compliance(surface, modes.clone(), rate)?;
         let channels = Channel::all(surface)?;
         let count = channels.len();
         let (blocks, frames) = ((SWEPT * rate / BLOCK as f64) as usize, BLOCK);
@@ -320,7 +322,7 @@ impl Truth {
         let (sensors, probe) = self.noise(modes);
         let or = |list: &[f64], at: usize, default: f64| list.get(at).copied().unwrap_or(default);
         let count = self.surface.actuators.len();
-        // A list of another length than there are channels is left for the device to refuse.
+        // A list whose length is not the number of channels is left for the device to refuse.
         let scaled = |own: &[f64], other: &[f64]| -> Vec<f64> {
             let length = if other.is_empty() { own.len() } else { other.len() };
             (0..length).map(|i| or(own, i, 1.0) * or(other, i, 1.0)).collect()
@@ -338,7 +340,7 @@ impl Truth {
     }
 }
 
-/// The amplitude decay time at a frequency (Hz) by the surface file, in s.
+/// The amplitude decay time in the surface file at a frequency (Hz), in s.
 pub(crate) fn nominal_decay(surface: &Surface, hz: f64) -> f64 {
     match &surface.sheet.decay {
         Decay::Time(time) => *time,

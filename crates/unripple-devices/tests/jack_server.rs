@@ -267,7 +267,7 @@ fn who_was_late_is_told_from_who_heard_of_it() {
         let mut device = Jack::open(&options(&server, Links::None)).unwrap();
         // What the idle one sees is what is wanted last.
         let over = if sleeps.is_some() { Arc::default() } else { over.clone() };
-        assert!(device.employ(Box::new(Sleepy { cycles: 0, sleeps, over })).is_ok());
+        assert!(device.install_work(Box::new(Sleepy { cycles: 0, sleeps, over })).is_ok());
         device
     });
     let start = Instant::now();
@@ -275,7 +275,7 @@ fn who_was_late_is_told_from_who_heard_of_it() {
         thread::sleep(Duration::from_millis(20));
     }
     let [slow, idle] = devices.each_mut().map(|device| {
-        device.dismiss();
+        device.remove_work();
         device.status().server.unwrap()
     });
     let (slept, over) = (sleeps.load(Ordering::Relaxed), over.load(Ordering::Relaxed));
@@ -306,16 +306,16 @@ fn a_client_that_the_server_calls_no_more_is_lost() {
     // The server is there once a bridge is.
     drop(bridge(&server).unwrap());
     let mut device = Jack::open(&JackOptions { patience: 0.5, ..options(&server, Links::None) }).unwrap();
-    assert!(device.employ(Box::new(Falling(0))).is_ok());
+    assert!(device.install_work(Box::new(Falling(0))).is_ok());
     let start = Instant::now();
     let lost = loop {
-        match device.tend() {
+        match device.check() {
             Ok(wait) if start.elapsed() < Duration::from_secs(20) => thread::sleep(wait),
             other => break other,
         }
     };
     assert!(matches!(&lost, Err(DeviceError::Lost { why, .. }) if why.contains("goes on")), "{lost:?}");
-    assert!(device.dismiss().is_some());
+    assert!(device.remove_work().is_some());
 }
 
 /// Takes longer over its third cycle than a client takes to leave.
@@ -350,7 +350,7 @@ fn a_client_that_leaves_within_a_cycle_ends_the_cycle_first() {
         let over = Arc::new(AtomicU64::new(0));
         let mut device = Jack::open(&options(&server, Links::None)).unwrap();
         let (begun, begins) = mpsc::channel();
-        assert!(device.employ(Box::new(Slow { cycles: 0, begun, over: over.clone() })).is_ok());
+        assert!(device.install_work(Box::new(Slow { cycles: 0, begun, over: over.clone() })).is_ok());
         begins.recv_timeout(Duration::from_secs(20)).unwrap();
         drop(device);
         assert_eq!(over.load(Ordering::Relaxed), 1);

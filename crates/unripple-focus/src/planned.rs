@@ -34,7 +34,7 @@ pub(crate) struct Sought {
 }
 
 impl<'r> Planned<'r> {
-    /// Prepares drives of `length` samples, which are played once or, with `again`, repeated without end.
+    /// Prepares drives of `length` samples, which are played once or, with `periodic`, repeated without end.
     ///
     /// # Errors
     /// [`FocusError::Count`], [`FocusError::NeedsModes`] and [`FocusError::Decomposition`].
@@ -43,12 +43,12 @@ impl<'r> Planned<'r> {
         others: &'r [Responses],
         options: &Options,
         length: usize,
-        again: bool,
+        periodic: bool,
     ) -> Result<Self, FocusError> {
-        let mut all = plants(responses, options, length, again)?;
+        let mut all = plants(responses, options, length, periodic)?;
         for other in others.iter().filter(|_| options.method == Method::Robust) {
             alike(responses, other)?;
-            all.push(plant(other, length, 1.0, again)?);
+            all.push(plant(other, length, 1.0, periodic)?);
         }
         let state = State::new(all, responses.ports().len(), length)?;
         let strength = options.strength.unwrap_or(options.method.strength());
@@ -123,42 +123,47 @@ fn plants<'r>(
     responses: &'r Responses,
     options: &Options,
     length: usize,
-    again: bool,
+    periodic: bool,
 ) -> Result<Vec<Plant<'r>>, FocusError> {
-    let mut plants = vec![plant(responses, length, 1.0, again)?];
+    let mut plants = vec![plant(responses, length, 1.0, periodic)?];
     if options.method == Method::Robust && options.spread > 0.0 {
-        plants.push(plant(responses, length, 1.0 - options.spread, again)?);
-        plants.push(plant(responses, length, 1.0 + options.spread, again)?);
+        plants.push(plant(responses, length, 1.0 - options.spread, periodic)?);
+        plants.push(plant(responses, length, 1.0 + options.spread, periodic)?);
     }
-    if options.rest && options.method == Method::Inverse && !again {
+    if options.rest && options.method == Method::Inverse && !periodic {
         let Responses::Modal(modal) = responses else {
             return Err(FocusError::NeedsModes("displacements at rest"));
         };
-        let resting = ModalPlant::once(modal, length, 1.0, Keeps::Displacement, ACCURACY)?;
+        let resting = ModalPlant::single(modal, length, 1.0, Keeps::Displacement, ACCURACY)?;
         plants.push(Plant::Modal(Box::new(resting)));
     }
     Ok(plants)
 }
 
 /// The model of one surface, with its natural frequencies multiplied by `stretch`.
-fn plant(responses: &Responses, length: usize, stretch: f64, again: bool) -> Result<Plant<'_>, FocusError> {
+fn plant(
+    responses: &Responses,
+    length: usize,
+    stretch: f64,
+    periodic: bool,
+) -> Result<Plant<'_>, FocusError> {
     match responses {
         // Under loads, the shapes of the oscillations are linearly dependent.
         Responses::Modal(modal) if modal.poles.iter().any(|pole| pole.onset == Onset::Displacement) => {
-            Ok(Plant::Reduced(Box::new(ReducedPlant::new(modal, length, stretch, again)?)))
+            Ok(Plant::Reduced(Box::new(ReducedPlant::new(modal, length, stretch, periodic)?)))
         }
-        Responses::Modal(modal) if again => {
-            Ok(Plant::Modal(Box::new(ModalPlant::again(modal, length, stretch)?)))
+        Responses::Modal(modal) if periodic => {
+            Ok(Plant::Modal(Box::new(ModalPlant::periodic(modal, length, stretch)?)))
         }
         Responses::Modal(modal) => {
-            let once = ModalPlant::once(modal, length, stretch, Keeps::Velocity, ACCURACY)?;
-            Ok(Plant::Modal(Box::new(once)))
+            let single = ModalPlant::single(modal, length, stretch, Keeps::Velocity, ACCURACY)?;
+            Ok(Plant::Modal(Box::new(single)))
         }
-        Responses::Sampled(_) if again => Err(FocusError::NeedsModes("a drive for a period")),
+        Responses::Sampled(_) if periodic => Err(FocusError::NeedsModes("a drive for a period")),
         Responses::Sampled(_) if stretch != 1.0 => {
             Err(FocusError::NeedsModes("a drive for a spread of frequencies"))
         }
-        Responses::Sampled(sampled) => Ok(Plant::Sampled(SampledPlant::once(sampled, length)?)),
+        Responses::Sampled(sampled) => Ok(Plant::Sampled(SampledPlant::single(sampled, length)?)),
     }
 }
 

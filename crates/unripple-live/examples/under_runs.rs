@@ -79,11 +79,11 @@ impl Work for Nothing {
 /// How a client that does nothing fares while nobody plays.
 fn alone(empty: &mut Jack, seconds: f64) -> Result<Status, Box<dyn std::error::Error>> {
     let (outputs, start) = (empty.layout().outputs.len(), Instant::now());
-    empty.employ(Box::new(Nothing(outputs))).map_err(|_| "a server does not call")?;
+    empty.install_work(Box::new(Nothing(outputs))).map_err(|_| "a server does not call")?;
     while start.elapsed().as_secs_f64() < seconds {
-        std::thread::sleep(empty.tend()?);
+        std::thread::sleep(empty.check()?);
     }
-    empty.dismiss();
+    empty.remove_work();
     Ok(empty.status())
 }
 
@@ -94,14 +94,14 @@ fn beside(
     seconds: f64,
 ) -> Result<(Status, String), Box<dyn std::error::Error>> {
     let outputs = empty.layout().outputs.len();
-    empty.employ(Box::new(Nothing(outputs))).map_err(|_| "a server does not call")?;
+    empty.install_work(Box::new(Nothing(outputs))).map_err(|_| "a server does not call")?;
     let mut priority = String::new();
-    engine.run(Some(seconds), |_, pulse| {
-        priority = pulse.priority.clone();
+    engine.run(Some(seconds), |_, play_state| {
+        priority = play_state.priority.clone();
         true
     })?;
-    empty.tend()?;
-    empty.dismiss();
+    empty.check()?;
+    empty.remove_work();
     Ok((empty.status(), priority))
 }
 

@@ -203,7 +203,7 @@ fn thread_time() -> f64 {
 mod tests {
     use super::*;
     use std::time::Instant;
-    use unripple_player::{At, Command, Desk, Options, Prepared, Voice, player};
+    use unripple_player::{At, Command, Desk, Options, PreparedDrive, Voice, player};
 
     const BLOCK: usize = 64;
 
@@ -239,7 +239,7 @@ mod tests {
     }
 
     fn start(desk: &mut Desk, samples: Vec<f32>, at: At) {
-        let drive = Arc::new(Prepared::new(1, samples).unwrap());
+        let drive = Arc::new(PreparedDrive::new(1, samples).unwrap());
         let start = Command::Start { voice: Voice(1), drive, at, gain: 1.0, period: None };
         assert!(desk.send(start).is_ok());
     }

@@ -3,14 +3,14 @@
 use crate::log::{Began, Log};
 use crate::pace::Pace;
 use crate::pulses::Ahead;
-use crate::sounding::{Inputs, Kept, Sounding};
+use crate::sounding::{Inputs, SustainedSound, VoiceState};
 use crate::waiting::Waiting;
 use crate::{DriveCache, FocusWorker, LiveError, PlayStats, Timeline, Timing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use unripple_effects::{Act, Cue, Effects};
-use unripple_player::{At, Command, Count, Desk, Prepared, Report, Voice};
+use unripple_player::{At, Command, Count, Desk, PreparedDrive, Report, Voice};
 use unripple_touch::{Heard, Wish};
 
 /// Starts whose touches are remembered until the player reports them; the oldest go first, and their latency is not
@@ -20,7 +20,7 @@ const MOST_ASKED: usize = 1 << 12;
 /// Time after which a step that makes drives looks at what came meanwhile, so that a finger that lifts is not kept waiting.
 const LONG: Duration = Duration::from_millis(5);
 
-/// The player's name (voice number) for pings: the largest number, which no other start is given.
+/// The player's voice number for pings: the largest number, which no other start is given.
 const PING: u64 = u64::MAX;
 
 /// Turns touches into commands for a player. Effects turn touches into cues, which wait here for their time; drives
@@ -63,14 +63,14 @@ pub struct Conductor {
     pub(crate) old: u64,
     /// Whether some of these cues were due already: there had been no time for them.
     pub(crate) late: bool,
-    pub(crate) sounding: BTreeMap<u64, Kept>,
+    pub(crate) sounding: BTreeMap<u64, VoiceState>,
     pub(crate) inputs: Inputs,
     pub(crate) ahead: Ahead,
-    /// Number of names (voice numbers) given to the player so far.
-    names: u64,
+    /// Number of voice numbers given to the player so far.
+    player_voices: u64,
     /// Factor on all levels.
     pub(crate) trim: f64,
-    /// Time of the touch that a start answers, in samples, by the name of the start.
+    /// Time of the touch that a start answers, in samples, by the player's voice number of the start.
     asked: BTreeMap<u64, u64>,
     cues: Vec<Cue>,
     pub(crate) tally: PlayStats,
@@ -112,7 +112,7 @@ impl Conductor {
             sounding: BTreeMap::new(),
             inputs: Inputs::new(inputs),
             ahead: Ahead::default(),
-            names: 0,
+            player_voices: 0,
             trim: 1.0,
             asked: BTreeMap::new(),
             cues: Vec::new(),
@@ -144,7 +144,7 @@ impl Conductor {
     }
 
     /// Plays a test signal that measures the tension of the sheet, at once.
-    pub(crate) fn ping(&mut self, drive: Arc<Prepared>) {
+    pub(crate) fn ping(&mut self, drive: Arc<PreparedDrive>) {
         if !self.ended && !self.stands {
             self.send(Command::Start { voice: Voice(PING), drive, at: At::Now, gain: 1.0, period: None });
         }
@@ -256,7 +256,7 @@ impl Conductor {
     /// [`LiveError::Gone`] if the thread that computes drives is gone.
     pub fn renew(&mut self, maker: FocusWorker, now: u64) -> Result<(), LiveError> {
         self.drives.replace(maker);
-        self.sounding.values_mut().for_each(|kept| kept.told = false);
+        self.sounding.values_mut().for_each(|state| state.told = false);
         if !self.tell_again(At::Sample(now), Instant::now())? {
             self.told = None;
         }
@@ -287,15 +287,15 @@ impl Conductor {
             Act::Shape { points, gain } => self.pulse(cue.voice, (points, *gain), asked, (sample, at)),
             Act::Comb { place, rate, gain } => {
                 let period = (self.rate / rate).round();
-                self.keep(cue.voice, Sounding::Comb { place: *place, level: *gain, period }, asked, at)
+                self.keep(cue.voice, SustainedSound::Comb { place: *place, level: *gain, period }, asked, at)
             }
             Act::Wave { place, wave, gain, looped, fade } => {
                 let (place, level, wave) = (*place, *gain, wave.clone());
-                let wave = Sounding::Wave { place, level, wave, looped: *looped, fade: *fade };
+                let wave = SustainedSound::Wave { place, level, wave, looped: *looped, fade: *fade };
                 self.keep(cue.voice, wave, asked, at)
             }
-            Act::Move { place } => self.change(cue.voice, |sounding| sounding.moved(*place), at),
-            Act::Gain { gain } => self.change(cue.voice, |sounding| sounding.at_level(*gain), at),
+            Act::Move { place } => self.change(cue.voice, |sound| sound.moved(*place), at),
+            Act::Gain { gain } => self.change(cue.voice, |sound| sound.at_level(*gain), at),
             Act::Stop { fade } => {
                 self.ahead.take_back(cue.voice);
                 self.let_go(cue.voice, self.fade(*fade), at);
@@ -304,16 +304,16 @@ impl Conductor {
         }
     }
 
-    /// A new name (voice number) for the player. `asked` is the time of the touch that is answered, in samples.
-    pub(crate) fn name(&mut self, asked: Option<u64>) -> u64 {
-        self.names += 1;
+    /// A new voice number for the player. `asked` is the time of the touch that is answered, in samples.
+    pub(crate) fn new_player_voice(&mut self, asked: Option<u64>) -> u64 {
+        self.player_voices += 1;
         if let Some(asked) = asked {
-            self.asked.insert(self.names, asked);
+            self.asked.insert(self.player_voices, asked);
             if self.asked.len() > MOST_ASKED {
                 self.asked.pop_first();
             }
         }
-        self.names
+        self.player_voices
     }
 
     /// Sends a command; whether there was room.
@@ -332,7 +332,8 @@ impl Conductor {
 
     /// First sample of the drive that is due to a voice that begins at `sample`: filters delay waveforms.
     fn leaves(&self, voice: Voice, sample: u64) -> u64 {
-        let waves = self.sounding.values().any(|kept| kept.name == voice.0 && kept.input.is_some());
+        let waves =
+            self.sounding.values().any(|state| state.player_voice == voice.0 && state.input.is_some());
         sample + if waves { self.desk.wave_delay() as u64 } else { 0 }
     }
 
@@ -360,14 +361,15 @@ impl Conductor {
                 }
                 Report::Refused { voice, why } => {
                     voice.map(|voice| self.asked.remove(&voice.0));
-                    // Filters have no name: those of any waveform may be meant.
-                    let meant =
-                        |kept: &&mut Kept| voice.map_or(kept.input.is_some(), |voice| voice.0 == kept.name);
+                    // Filters have no voice number: those of any waveform may be meant.
+                    let meant = |state: &&mut VoiceState| {
+                        voice.map_or(state.input.is_some(), |voice| voice.0 == state.player_voice)
+                    };
                     let hopeless = voice.is_some() && !why.may_pass();
-                    for kept in self.sounding.values_mut().filter(meant) {
-                        kept.told = false;
-                        kept.hopeless |=
-                            hopeless && kept.hold.as_ref().is_some_and(|hold| hold.over().is_some());
+                    for state in self.sounding.values_mut().filter(meant) {
+                        state.told = false;
+                        state.hopeless |=
+                            hopeless && state.hold.as_ref().is_some_and(|hold| hold.over().is_some());
                     }
                 }
                 _ => {}
@@ -377,7 +379,7 @@ impl Conductor {
         if std::mem::replace(&mut self.missed, missed) != missed {
             self.asked.clear();
             self.log.iter_mut().for_each(Log::miss);
-            self.sounding.values_mut().for_each(|kept| kept.told = false);
+            self.sounding.values_mut().for_each(|state| state.told = false);
         }
     }
 }

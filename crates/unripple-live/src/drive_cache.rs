@@ -7,7 +7,7 @@ use std::time::Instant;
 use unripple_core::Point;
 use unripple_dsp::{Convolver, Threshold, Weighting, convolve};
 use unripple_effects::{Level, Wave};
-use unripple_player::Prepared;
+use unripple_player::PreparedDrive;
 
 /// Places whose drives are remembered; the one used longest ago goes first. A drive of eight channels and 70 ms takes
 /// 0.1 MB in float32, and twice that in float64.
@@ -61,18 +61,18 @@ fn key(points: &[Point]) -> Place {
 
 #[derive(Debug)]
 struct Known {
-    at: At,
+    drive: CachedDrive,
     /// When it was last asked for.
     asked: u64,
 }
 
 /// The drive that focuses at a place, in float64 and in float32.
 #[derive(Clone, Debug)]
-pub struct At {
+pub struct CachedDrive {
     /// The drive at the limit, in float64, and its focal instant.
     pub made: FocusDrive,
     /// The drive in float32, prepared for the player.
-    pub prepared: Arc<Prepared>,
+    pub prepared: Arc<PreparedDrive>,
     /// Displacement at the focus, in m, once it has been computed.
     trace: Option<Arc<Vec<f64>>>,
 }
@@ -124,25 +124,25 @@ impl DriveCache {
     ///
     /// # Errors
     /// Those of [`FocusWorker::focus`].
-    pub fn at(&mut self, points: &[Point]) -> Result<At, LiveError> {
+    pub fn at(&mut self, points: &[Point]) -> Result<CachedDrive, LiveError> {
         self.asked += 1;
         let place = key(points);
         if let Some(known) = self.known.get_mut(&place) {
             known.asked = self.asked;
-            return Ok(known.at.clone());
+            return Ok(known.drive.clone());
         }
         let began = Instant::now();
         let made = self.maker.focus(points)?;
-        let prepared = Arc::new(Prepared::from_drive(&made.drive)?);
+        let prepared = Arc::new(PreparedDrive::from_drive(&made.drive)?);
         self.making.add(began.elapsed().as_secs_f64());
         if self.known.len() >= REMEMBERED {
             let oldest =
                 self.known.iter().min_by_key(|(_, known)| known.asked).map(|(place, _)| place.clone());
             oldest.map(|place| self.known.remove(&place));
         }
-        let at = At { made, prepared, trace: None };
-        self.known.insert(place, Known { at: at.clone(), asked: self.asked });
-        Ok(at)
+        let drive = CachedDrive { made, prepared, trace: None };
+        self.known.insert(place, Known { drive: drive.clone(), asked: self.asked });
+        Ok(drive)
     }
 
     /// Factor, at most 1, on the drive that focuses at these points, with which a pulse has the given level;
@@ -182,7 +182,7 @@ impl DriveCache {
 
     /// Largest factor with which copies of a drive that start every `period` samples, and may overlap, stay
     /// within the limit together, so that the player scales down none of them.
-    pub fn even(&self, drive: &Prepared, period: f64) -> f32 {
+    pub fn even(&self, drive: &PreparedDrive, period: f64) -> f32 {
         let most = (0..drive.outputs()).map(|output| drive.comb_peak(output, period)).fold(0.0, f32::max);
         if most > 0.0 { self.limit as f32 / most } else { 1.0 }
     }
@@ -214,30 +214,30 @@ impl DriveCache {
     }
 
     fn felt_pulse(&mut self, points: &[Point], db: f64) -> Result<(f64, bool), LiveError> {
-        let (trace, at) = self.trace(points)?;
-        Ok(reaching(db, pulse_felt(&at.made, &trace)))
+        let (trace, cached) = self.trace(points)?;
+        Ok(reaching(db, pulse_felt(&cached.made, &trace)))
     }
 
     fn felt_wave(&mut self, place: Point, wave: &Wave, db: f64) -> Result<(f64, bool), LiveError> {
-        let (trace, at) = self.trace(&[place])?;
-        let rate = at.made.drive.rate();
+        let (trace, cached) = self.trace(&[place])?;
+        let rate = cached.made.drive.rate();
         let part = loudest(&wave.samples, (LOUDEST * rate) as usize);
         let moved = convolve(&part, &trace);
-        let most = self.limit / steadiest(&at.made, &mut self.plan);
+        let most = self.limit / steadiest(&cached.made, &mut self.plan);
         let (gain, beyond) = reaching(db - 20.0 * most.log10(), felt(&moved, rate, moved.len()));
         Ok((gain * most, beyond))
     }
 
-    fn trace(&mut self, points: &[Point]) -> Result<(Arc<Vec<f64>>, At), LiveError> {
-        let at = self.at(points)?;
-        if let Some(trace) = &at.trace {
-            return Ok((trace.clone(), at));
+    fn trace(&mut self, points: &[Point]) -> Result<(Arc<Vec<f64>>, CachedDrive), LiveError> {
+        let cached = self.at(points)?;
+        if let Some(trace) = &cached.trace {
+            return Ok((trace.clone(), cached));
         }
-        let trace = Arc::new(self.maker.trace(&at.made)?);
+        let trace = Arc::new(self.maker.trace(&cached.made)?);
         if let Some(known) = self.known.get_mut(&key(points)) {
-            known.at.trace = Some(trace.clone());
+            known.drive.trace = Some(trace.clone());
         }
-        Ok((trace, at))
+        Ok((trace, cached))
     }
 }
 

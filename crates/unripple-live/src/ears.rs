@@ -10,7 +10,7 @@ const LONGEST: Duration = Duration::from_millis(100);
 const SHORTEST: Duration = Duration::from_millis(1);
 
 /// Sources of touches, and how what they report is used.
-pub(crate) struct Ears {
+pub(crate) struct TouchInput {
     sources: Sources,
     /// Whether a focus set off by a moving finger is aimed at its predicted place, and how far ahead that is, in s.
     predict: bool,
@@ -19,7 +19,7 @@ pub(crate) struct Ears {
 
 /// Touches and requests of one moment.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct News {
+pub(crate) struct TouchBatch {
     /// Time of the moment, in s of the device's clock.
     pub now: f64,
     /// Touches at the places where they were measured, and requests.
@@ -32,21 +32,21 @@ pub(crate) struct News {
     pub counts: Counts,
 }
 
-impl News {
+impl TouchBatch {
     /// Whether there are any touches or requests.
     pub fn any(&self) -> bool {
         !self.heard.touches.is_empty() || !self.heard.wishes.is_empty()
     }
 }
 
-impl Ears {
+impl TouchInput {
     /// Sources whose moving fingers are aimed `window` s ahead, if `predict` asks for it.
     pub fn new(sources: Sources, predict: bool, window: f64) -> Self {
         Self { sources, predict, window }
     }
 
     /// Touches and requests of all sources up to a time in s of the device's clock.
-    pub fn hear(&mut self, now: f64) -> News {
+    pub fn poll(&mut self, now: f64) -> TouchBatch {
         let mut heard = Heard::default();
         self.sources.poll(now, &mut heard);
         let aim = |touch: &Touch| {
@@ -56,7 +56,7 @@ impl Ears {
         };
         let aimed = heard.touches.iter().map(aim).collect();
         let fingers = self.sources.fingers().map(|(finger, motion)| (finger, motion.at())).collect();
-        News { now, heard, aimed, fingers, counts: self.sources.counts() }
+        TouchBatch { now, heard, aimed, fingers, counts: self.sources.counts() }
     }
 
     /// Counts of what was accepted and refused so far.

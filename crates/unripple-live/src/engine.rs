@@ -1,6 +1,6 @@
 //! Live play of a surface: sources of touches, effects, player and device joined.
 
-use crate::ears::Ears;
+use crate::ears::TouchInput;
 use crate::pinging::Pinging;
 use crate::{
     Conductor, DriveCache, FocusWorker, Follower, Heartbeat, Listener, LiveError, LiveOptions, Percentiles,
@@ -11,7 +11,7 @@ use unripple_calibrate::Ping;
 use unripple_core::{Device, Surface};
 use unripple_devices::Feeler;
 use unripple_effects::{EffectSet, Effects};
-use unripple_player::{Prepared, player};
+use unripple_player::{PreparedDrive, player};
 use unripple_touch::{Counts, Heard, Sources};
 
 /// Longest block of the player when it plays through a sound server, in samples. A command waits for one block at
@@ -28,7 +28,7 @@ const SHORTEST_BLOCK: usize = 16;
 pub struct Engine {
     pub(crate) stage: Stage,
     pub(crate) heart: Heartbeat,
-    pub(crate) ears: Ears,
+    pub(crate) touch_input: TouchInput,
     /// Samples that the player may compute in one step: the device's block, rounded up to whole blocks of the player.
     ahead: u64,
 }
@@ -76,9 +76,9 @@ impl Engine {
             computing: Percentiles::default(),
             clock: 0,
         };
-        let ears = Ears::new(sources, options.predict, window);
+        let touch_input = TouchInput::new(sources, options.predict, window);
         let ahead = layout.block.next_multiple_of(block) as u64;
-        Ok(Self { stage, heart: Heartbeat::new(player, block, device), ears, ahead })
+        Ok(Self { stage, heart: Heartbeat::new(player, block, device), touch_input, ahead })
     }
 
     /// This engine, with fingers pressed on a virtual surface, so that what they feel is computed.
@@ -94,7 +94,7 @@ impl Engine {
     /// [`LiveError::Player`] for a ping that cannot be played.
     pub fn with_follower(mut self, follower: Follower, ping: &Ping) -> Result<Self, LiveError> {
         let samples = ping.drive.iter().flatten().map(|x| *x as f32).collect();
-        let prepared = Prepared::new(ping.drive.len(), samples)?;
+        let prepared = PreparedDrive::new(ping.drive.len(), samples)?;
         self.stage.pinging = Some(Pinging::new(Arc::new(prepared), follower.period() as u64));
         self.stage.follower = Some(follower);
         Ok(self)
@@ -112,8 +112,8 @@ impl Engine {
     /// Those of the device; [`LiveError::Gone`] if the thread that computes drives is gone.
     pub fn step(&mut self) -> Result<(), LiveError> {
         let stage = &mut self.stage;
-        let news = self.ears.hear(stage.time());
-        stage.take(news)?;
+        let batch = self.touch_input.poll(stage.time());
+        stage.take(batch)?;
         stage.conduct(stage.clock, stage.clock + self.ahead)?;
         self.heart.beat()?;
         stage.clock = stage.conductor.desk().clock();

@@ -116,7 +116,7 @@ impl Follower {
         // The drives made now are used over the next period: half of it ahead is their middle.
         let ahead = 0.5 * self.period as f64 / self.rate;
         let tension = self.tracker.tension(ahead);
-        if drift.asks_for_calibration() || (tension - self.made_for).abs() < WORTH {
+        if drift.needs_calibration() || (tension - self.made_for).abs() < WORTH {
             return Ok(None);
         }
         self.made_for = tension;

@@ -29,7 +29,7 @@ pub struct Heartbeat {
 }
 
 impl Heartbeat {
-    /// A player with blocks of `block` samples, and the device that it plays through.
+    /// A loop for a player with blocks of `block` samples and the device that it plays through.
     pub fn new(player: Player, block: usize, device: Box<dyn Device>) -> Self {
         let layout = device.layout();
         let (outputs, inputs) = (layout.outputs.len() * layout.block, layout.inputs.len() * layout.block);
@@ -69,12 +69,12 @@ impl Heartbeat {
         Ok(())
     }
 
-    /// Hands the player to the device, if it calls by itself ([`Device::employ`]), with the thread to wake and the
+    /// Hands the player to the device, if it calls by itself ([`Device::install_work`]), with the thread to wake and the
     /// queue to the follower. Returns whether the device took it, and if not, the queue.
     pub(crate) fn lend(&mut self, bell: Thread, overheard: Option<Overheard>) -> (bool, Option<Overheard>) {
         let Some(mut beats) = self.beats.take() else { return (false, overheard) };
         beats.tell(Some(bell), overheard);
-        match self.device.employ(beats) {
+        match self.device.install_work(beats) {
             Ok(()) => (true, None),
             Err(work) => {
                 self.beats = home(work);
@@ -87,7 +87,7 @@ impl Heartbeat {
     /// times are unknown then.
     pub(crate) fn regain(&mut self) {
         if self.beats.is_none() {
-            self.beats = self.device.dismiss().and_then(home);
+            self.beats = self.device.remove_work().and_then(home);
         }
         if let Some(beats) = &mut self.beats {
             beats.tell(None, None);
@@ -119,7 +119,7 @@ impl Heartbeat {
         self.device.as_ref()
     }
 
-    /// Processor time of the player's part of each cycle of the device, in s.
+    /// Processor time, in s, that the player took in each cycle of the device.
     pub fn work(&self) -> &Percentiles {
         self.beats.as_ref().map_or(&self.work, |beats| beats.work())
     }

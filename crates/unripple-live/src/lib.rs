@@ -75,7 +75,7 @@ mod waiting;
 mod window;
 
 pub use conductor::Conductor;
-pub use drive_cache::{At, DriveCache, Full};
+pub use drive_cache::{CachedDrive, DriveCache, Full};
 pub use engine::Engine;
 pub use error::LiveError;
 pub use focus_worker::{FocusDrive, FocusWorker};
@@ -89,6 +89,6 @@ pub use play_stats::PlayStats;
 pub use priority::{Priorities, real_time};
 pub use recovering::{Opener, Recovering};
 pub use stage::{Listener, Stage};
-pub use threaded::Pulse;
+pub use threaded::PlayState;
 pub(crate) use timeline::Timeline;
 pub use window::Window;

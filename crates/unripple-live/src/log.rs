@@ -2,33 +2,33 @@
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-use unripple_player::{At, Command, Prepared, Report};
+use unripple_player::{At, Command, PreparedDrive, Report};
 
-/// Drives that are kept until somebody asks, and names that are remembered; the oldest go first.
+/// Drives that are kept until somebody asks, and voices that are remembered; the oldest go first.
 const MOST: usize = 1 << 14;
 
 /// A drive that the player has begun to play.
 #[derive(Clone, Debug)]
 pub struct Began {
     /// The drive that began.
-    pub drive: Arc<Prepared>,
+    pub drive: Arc<PreparedDrive>,
     /// Factor on the drive, after limiting.
     pub gain: f32,
     /// Sample of the player's clock at which the drive began.
     pub sample: u64,
 }
 
-/// Drives by the player's names (voice numbers), and those that have begun.
+/// Drives by the player's voice numbers, and those that have begun.
 #[derive(Debug, Default)]
 pub(crate) struct Log {
     playing: BTreeMap<u64, Playing>,
     began: VecDeque<Began>,
 }
 
-/// Drives of a name, each with the sample from which on it is begun.
+/// Drives of a voice, each with the sample from which on it is begun.
 #[derive(Debug)]
 struct Playing {
-    drives: VecDeque<(u64, Arc<Prepared>)>,
+    drives: VecDeque<(u64, Arc<PreparedDrive>)>,
     repeats: bool,
 }
 
@@ -71,14 +71,14 @@ impl Log {
         }
     }
 
-    fn start(&mut self, name: u64, sample: u64, gain: f32) {
-        let Some(playing) = self.playing.get_mut(&name) else { return };
+    fn start(&mut self, voice: u64, sample: u64, gain: f32) {
+        let Some(playing) = self.playing.get_mut(&voice) else { return };
         while playing.drives.get(1).is_some_and(|(from, _)| *from <= sample) {
             playing.drives.pop_front();
         }
         let drive = playing.drives.front().map(|(_, drive)| drive.clone());
         if !playing.repeats {
-            self.forget(name);
+            self.forget(voice);
         }
         self.began.extend(drive.map(|drive| Began { drive, gain, sample }));
         if self.began.len() > MOST {
@@ -86,9 +86,9 @@ impl Log {
         }
     }
 
-    /// Removes a name (voice number) on which no more reports are expected.
-    pub fn forget(&mut self, name: u64) {
-        self.playing.remove(&name);
+    /// Removes a voice on which no more reports are expected.
+    pub fn forget(&mut self, voice: u64) {
+        self.playing.remove(&voice);
     }
 
     /// Removes drives that are played once, after reports were lost: whether they began is unknown.
@@ -107,13 +107,13 @@ mod tests {
     use super::*;
     use unripple_player::Voice;
 
-    /// Names and drives beyond the bound.
+    /// Voices and drives beyond the bound.
     const MORE: u64 = 5;
 
-    /// Sends the start of a drive under a name, once or repeated.
-    fn send(log: &mut Log, name: u64, period: Option<f64>) {
-        let drive = Arc::new(Prepared::new(1, vec![0.5]).unwrap());
-        log.send(&Command::Start { voice: Voice(name), drive, at: At::Now, gain: 1.0, period }, 0);
+    /// Sends the start of a drive under a voice number, once or repeated.
+    fn send(log: &mut Log, voice: u64, period: Option<f64>) {
+        let drive = Arc::new(PreparedDrive::new(1, vec![0.5]).unwrap());
+        log.send(&Command::Start { voice: Voice(voice), drive, at: At::Now, gain: 1.0, period }, 0);
     }
 
     /// Samples at which drives began since this was last asked.
@@ -121,16 +121,16 @@ mod tests {
         log.take().iter().map(|began| began.sample).collect()
     }
 
-    fn start(log: &mut Log, name: u64) {
-        log.hear(&Report::Started { voice: Voice(name), sample: name, gain: 1.0 });
+    fn start(log: &mut Log, voice: u64) {
+        log.hear(&Report::Started { voice: Voice(voice), sample: voice, gain: 1.0 });
     }
 
     #[test]
     fn the_newest_drives_are_kept() {
         let (mut log, last) = (Log::default(), MOST as u64 + MORE);
-        for name in 0..last {
-            send(&mut log, name, None);
-            start(&mut log, name);
+        for voice in 0..last {
+            send(&mut log, voice, None);
+            start(&mut log, voice);
         }
         assert_eq!(log.playing.len(), 0, "what is played once is over for the log when it begins");
         assert_eq!(began(&mut log), (MORE..last).collect::<Vec<_>>());
@@ -138,15 +138,15 @@ mod tests {
     }
 
     #[test]
-    fn the_newest_names_are_kept() {
+    fn the_newest_voices_are_kept() {
         let (mut log, last) = (Log::default(), MOST as u64 + MORE);
-        (0..last).for_each(|name| send(&mut log, name, Some(64.0)));
+        (0..last).for_each(|voice| send(&mut log, voice, Some(64.0)));
         assert_eq!(log.playing.len(), MOST);
-        (0..last).for_each(|name| start(&mut log, name));
+        (0..last).for_each(|voice| start(&mut log, voice));
         assert_eq!(began(&mut log), (MORE..last).collect::<Vec<_>>());
-        // Only what is repeated may begin again, and a name that has ended may not.
+        // Only what is repeated may begin again, and a voice that has ended may not.
         log.hear(&Report::Ended { voice: Voice(MORE), sample: last });
-        (0..last).for_each(|name| start(&mut log, name));
+        (0..last).for_each(|voice| start(&mut log, voice));
         assert_eq!(began(&mut log), (MORE + 1..last).collect::<Vec<_>>());
     }
 
@@ -156,7 +156,7 @@ mod tests {
         send(&mut log, 1, None);
         send(&mut log, 2, Some(64.0));
         log.miss();
-        [1, 2].into_iter().for_each(|name| start(&mut log, name));
+        [1, 2].into_iter().for_each(|voice| start(&mut log, voice));
         assert_eq!(began(&mut log), [2]);
         log.forget(2);
         start(&mut log, 2);

@@ -2,12 +2,12 @@
 
 use crate::Conductor;
 use std::sync::Arc;
-use unripple_player::Prepared;
+use unripple_player::PreparedDrive;
 
 /// Sends a ping at the beginning of each period of observation in which no finger is there, so that it is over at its end.
 #[derive(Debug)]
 pub(crate) struct Pinging {
-    ping: Arc<Prepared>,
+    ping: Arc<PreparedDrive>,
     /// Samples of a period, and which one was last begun.
     period: u64,
     begun: Option<u64>,
@@ -15,7 +15,7 @@ pub(crate) struct Pinging {
 
 impl Pinging {
     /// A ping to be sent once in each period of `period` samples.
-    pub fn new(ping: Arc<Prepared>, period: u64) -> Self {
+    pub fn new(ping: Arc<PreparedDrive>, period: u64) -> Self {
         Self { ping, period: period.max(1), begun: None }
     }
 

@@ -9,14 +9,14 @@ use unripple_player::{At, Command, Hold, Report, Voice, Why};
 /// Delay beyond which a late pulse is not begun, in s. It would be felt where the finger no longer is.
 pub(crate) const STALE: f64 = 0.1;
 
-/// Withdrawn pulses whose names are remembered until the player reports them; it does not report those that had
+/// Withdrawn pulses whose voice numbers are remembered until the player reports them; it does not report those that had
 /// begun.
 const MOST_TAKEN: usize = 1 << 12;
 
 /// Pulses that were sent ahead of their time, so that a stop can withdraw those that have not begun.
 #[derive(Debug, Default)]
 pub(crate) struct Ahead {
-    /// Voice, the player's name, and the hold of each.
+    /// Voice, the player's voice number, and the hold of each.
     given: Vec<(u64, u64, Hold)>,
     taken: BTreeSet<u64>,
 }
@@ -24,8 +24,8 @@ pub(crate) struct Ahead {
 impl Ahead {
     /// Cancels the pulses of a voice that have not begun; those that have begun play to their end.
     pub fn take_back(&mut self, voice: u64) {
-        for (_, name, _) in self.given.extract_if(.., |(of, ..)| *of == voice) {
-            self.taken.insert(name);
+        for (_, player_voice, _) in self.given.extract_if(.., |(of, ..)| *of == voice) {
+            self.taken.insert(player_voice);
             if self.taken.len() > MOST_TAKEN {
                 self.taken.pop_first();
             }
@@ -39,7 +39,7 @@ impl Ahead {
 
     /// Whether a report refuses a pulse only because [`Self::take_back`] cancelled it.
     pub fn meant(&mut self, report: &Report) -> bool {
-        matches!(report, Report::Refused { voice: Some(name), why: Why::Stale } if self.taken.remove(&name.0))
+        matches!(report, Report::Refused { voice: Some(number), why: Why::Stale } if self.taken.remove(&number.0))
     }
 }
 
@@ -62,13 +62,13 @@ impl Conductor {
         }
         let gain = self.pulse_gain(points, level)?;
         let drive = self.drives.at(points)?.prepared;
-        let name = self.name(asked);
-        let start = Command::Start { voice: Voice(name), drive, at, gain, period: None };
+        let player_voice = self.new_player_voice(asked);
+        let start = Command::Start { voice: Voice(player_voice), drive, at, gain, period: None };
         match at {
             At::Now => drop(self.send(start)),
             At::Sample(_) => {
                 let hold = self.hold(start);
-                self.ahead.given.extend(hold.map(|hold| (voice, name, hold)));
+                self.ahead.given.extend(hold.map(|hold| (voice, player_voice, hold)));
             }
         }
         Ok(())

@@ -13,12 +13,13 @@ const LONGEST_WAIT: Duration = Duration::from_secs(4);
 /// A device that is reopened when it is lost. Meanwhile its drive is discarded, its inputs are silent, and time goes
 /// on.
 ///
-/// After a loss, reopening is tried after 0.25 s, then after twice as long each time, up to 4 s, as many times as
-/// given; then the device stays lost. Meanwhile each block takes its normal duration, so that the caller needs no
-/// special case. A device that returns with other channels or another rate is refused. So is one with another block
-/// length, unless it [calls](Device::employ) its work by itself; meanwhile that work is called here, at the normal
-/// pace. A sound server may return with another period, so its opener asks for the first device's block length each
-/// time after ([`JackOptions::block`](unripple_devices::JackOptions::block)).
+/// After a loss, reopening is tried after 0.25 s, then after twice as long each time, up to 4 s, as often as
+/// the number of tries allows; then the device stays lost. Meanwhile each block takes its normal duration,
+/// so that the caller needs no special case. A device that returns with other channels or another rate is
+/// refused. So is one with another block length, unless it [calls](Device::install_work) its work by itself;
+/// meanwhile that work is called here, at the normal pace. A sound server may return with another period, so
+/// its opener asks for the first device's block length each time after
+/// ([`JackOptions::block`](unripple_devices::JackOptions::block)).
 ///
 /// ```
 /// use unripple_core::*;
@@ -99,7 +100,7 @@ impl Recovering {
         })
     }
 
-    /// Number of times that the device came back.
+    /// Number of times that the device was reopened after a loss.
     pub fn returns(&self) -> u64 {
         self.returns
     }
@@ -108,7 +109,7 @@ impl Recovering {
     fn lose(&mut self, why: String) {
         if let Some(mut device) = self.device.take() {
             if std::mem::take(&mut self.lent) {
-                self.work = device.dismiss();
+                self.work = device.remove_work();
             }
             let last = device.status();
             if let Some(mut server) = last.server {
@@ -135,7 +136,7 @@ impl Recovering {
         match (self.open)() {
             Ok(mut device) if self.is_same(device.layout()) => {
                 if let Some(work) = self.work.take() {
-                    self.work = device.employ(work).err();
+                    self.work = device.install_work(work).err();
                     self.lent = self.work.is_none();
                 }
                 self.device = Some(device);
@@ -246,27 +247,27 @@ impl Device for Recovering {
         Ok(())
     }
 
-    fn employ(&mut self, work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
+    fn install_work(&mut self, work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
         let Some(device) = &mut self.device else { return Err(work) };
-        device.employ(work)?;
+        device.install_work(work)?;
         self.lent = true;
         Ok(())
     }
 
-    fn dismiss(&mut self) -> Option<Box<dyn Work>> {
+    fn remove_work(&mut self) -> Option<Box<dyn Work>> {
         match &mut self.device {
-            Some(device) if std::mem::take(&mut self.lent) => device.dismiss(),
+            Some(device) if std::mem::take(&mut self.lent) => device.remove_work(),
             _ => self.work.take(),
         }
     }
 
-    /// As [`Device::tend`]; while the device is lost, its work is called at the normal pace, and its drive discarded.
+    /// As [`Device::check`]; while the device is lost, its work is called at the normal pace, and its drive discarded.
     ///
     /// # Errors
     /// [`DeviceError::Lost`] once all tries have failed.
-    fn tend(&mut self) -> Result<Duration, DeviceError> {
+    fn check(&mut self) -> Result<Duration, DeviceError> {
         match &mut self.device {
-            Some(device) => match device.tend() {
+            Some(device) => match device.check() {
                 Ok(wait) => return Ok(wait),
                 Err(error) => self.lose(error.to_string()),
             },

@@ -153,8 +153,8 @@ fn of_places_that_nobody_had_time_for_only_the_last_is_made() {
     }
     (0..8).for_each(|_| slow.step(&[]));
     assert!(slow.conductor.waiting.is_empty());
-    for kept in slow.conductor.sounding.values() {
-        let crate::sounding::Sounding::Comb { place, .. } = kept.sounding else { panic!("{kept:?}") };
+    for state in slow.conductor.sounding.values() {
+        let crate::sounding::SustainedSound::Comb { place, .. } = state.sound else { panic!("{state:?}") };
         assert!((place.x - 0.06).abs() < 1e-9, "{place:?}");
     }
     assert!(slow.made() <= 40, "{} drives", slow.made());

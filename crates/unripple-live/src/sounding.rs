@@ -6,14 +6,14 @@ use unripple_player::Hold;
 
 /// A sustained sound of a voice, until it is stopped or over.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Sounding {
+pub(crate) enum SustainedSound {
     /// A repeated focus, and the samples from each to the next.
     Comb { place: Point, level: Level, period: f64 },
     /// A waveform, for ever or once, and the time over which it rises, in s.
     Wave { place: Point, level: Level, wave: Wave, looped: bool, fade: f64 },
 }
 
-impl Sounding {
+impl SustainedSound {
     /// This sound at another place, in m.
     pub fn moved(mut self, to: Point) -> Self {
         let (Self::Comb { place, .. } | Self::Wave { place, .. }) = &mut self;
@@ -36,11 +36,11 @@ impl Sounding {
 
 /// State of a voice: the sound that is to be played, and what the player has been told of it.
 #[derive(Debug)]
-pub(crate) struct Kept {
+pub(crate) struct VoiceState {
     /// The sound, its place and level.
-    pub sounding: Sounding,
-    /// Name (voice number) of the sound in the player; no other sound has the same.
-    pub name: u64,
+    pub sound: SustainedSound,
+    /// Voice number of the sound in the player; no other sound has the same.
+    pub player_voice: u64,
     /// Handle that keeps the sound playing; `None` while the player has not been sent the sound.
     pub hold: Option<Hold>,
     /// Index of the player's input that the sound occupies, if it is a waveform.
@@ -53,10 +53,10 @@ pub(crate) struct Kept {
     pub hopeless: bool,
 }
 
-impl Kept {
-    /// A sound that has not been sent to the player yet; `name` is a number that no other sound has.
-    pub fn new(sounding: Sounding, name: u64) -> Self {
-        Self { sounding, name, hold: None, input: None, told: false, again: 0, hopeless: false }
+impl VoiceState {
+    /// A sound that has not been sent to the player yet; `player_voice` is a number that no other sound has.
+    pub fn new(sound: SustainedSound, player_voice: u64) -> Self {
+        Self { sound, player_voice, hold: None, input: None, told: false, again: 0, hopeless: false }
     }
 }
 

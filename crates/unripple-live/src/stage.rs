@@ -1,6 +1,6 @@
 //! The part of live play outside the audio thread: touches, effects, what fingers feel.
 
-use crate::ears::News;
+use crate::ears::TouchBatch;
 use crate::pinging::Pinging;
 use crate::{Conductor, Follower, LiveError, Percentiles};
 use std::time::Instant;
@@ -34,17 +34,17 @@ pub struct Stage {
 
 impl Stage {
     /// Processes new touches and requests.
-    pub(crate) fn take(&mut self, news: News) -> Result<(), LiveError> {
+    pub(crate) fn take(&mut self, batch: TouchBatch) -> Result<(), LiveError> {
         if let Some(listener) = &mut self.listener {
-            listener(news.now, &news.heard);
+            listener(batch.now, &batch.heard);
         }
         if let Some(feeler) = &mut self.feeler {
-            news.heard.touches.iter().try_for_each(|touch| feeler.touch(touch))?;
+            batch.heard.touches.iter().try_for_each(|touch| feeler.touch(touch))?;
         }
-        (self.fingers, self.counts) = (news.fingers, news.counts);
+        (self.fingers, self.counts) = (batch.fingers, batch.counts);
         let old = self.heard.touches.len();
-        news.aimed.into_iter().for_each(|touch| self.put(touch, old));
-        self.heard.wishes.extend(news.heard.wishes);
+        batch.aimed.into_iter().for_each(|touch| self.put(touch, old));
+        self.heard.wishes.extend(batch.heard.wishes);
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Live play on several threads: what each waits for, and which wakes which.
 
-use crate::ears::{Ears, News};
+use crate::ears::{TouchBatch, TouchInput};
 use crate::heartbeat::Overheard;
 use crate::{Engine, FocusWorker, Follower, Heartbeat, LiveError, Priorities, Stage, Timeline, priority};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -34,19 +34,20 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// State of the device and its audio thread, as [`Engine::run`] hands it to its caller while it plays.
 #[derive(Clone, Debug, Default)]
-pub struct Pulse {
+pub struct PlayState {
     /// State of the device.
     pub state: State,
-    /// Blocks lost so far.
+    /// Number of blocks that the device has lost so far.
     pub lost: u64,
-    /// Real-time priority that was granted, or why none was.
+    /// Real-time priority that the audio thread was granted, or the reason why it was granted none, in
+    /// words.
     pub priority: String,
 }
 
 /// State that the threads of a play share.
 struct Shared<'a> {
     stop: AtomicBool,
-    pulse: Mutex<Pulse>,
+    state: Mutex<PlayState>,
     /// Whether a finger is on the sheet.
     touched: AtomicBool,
     timeline: &'a Timeline,
@@ -60,7 +61,7 @@ impl<'a> Shared<'a> {
     fn new(timeline: &'a Timeline, priorities: Priorities) -> Self {
         Self {
             stop: AtomicBool::new(false),
-            pulse: Mutex::default(),
+            state: Mutex::default(),
             touched: AtomicBool::new(false),
             timeline,
             bell: std::thread::current(),
@@ -75,7 +76,7 @@ impl<'a> Shared<'a> {
 
 /// The queues into the thread that turns touches into commands.
 struct Mail {
-    news: mpsc::Receiver<News>,
+    batches: mpsc::Receiver<TouchBatch>,
     failures: mpsc::Receiver<DeviceError>,
     finds: mpsc::Receiver<Found>,
 }
@@ -84,7 +85,7 @@ impl Engine {
     /// Plays for `seconds` of the device's clock, or without end if `None`, until `tell` returns false. `tell` is
     /// called five times a second. Finally everything fades out, and the engine plays nothing more.
     ///
-    /// The player runs on the device's own thread if the device [calls](unripple_core::Device::employ), or else on a
+    /// The player runs on the device's own thread if the device [calls](unripple_core::Device::install_work), or else on a
     /// thread that exchanges blocks with it. Another thread receives touches and records when they come. The calling
     /// thread turns them into commands. All threads sleep until there is something for them to do.
     ///
@@ -97,9 +98,9 @@ impl Engine {
     pub fn run(
         &mut self,
         seconds: Option<f64>,
-        mut tell: impl FnMut(&mut Stage, &Pulse) -> bool,
+        mut tell: impl FnMut(&mut Stage, &PlayState) -> bool,
     ) -> Result<(), LiveError> {
-        let Self { stage, heart, ears, .. } = self;
+        let Self { stage, heart, touch_input, .. } = self;
         let layout = heart.device().layout();
         let (channels, block) = ([layout.outputs.len(), layout.inputs.len()], stage.block);
         let priorities = Priorities::of(heart.device());
@@ -109,9 +110,9 @@ impl Engine {
         let (blocks, fetched) = rtrb::RingBuffer::new(KEPT * samples.max(1));
         let mut follower = stage.follower.take();
         let overheard = follower.is_some().then(|| Overheard::new(blocks, channels, block));
-        let ((failed, failures), (found, finds), (told, news)) =
+        let ((failed, failures), (found, finds), (told, batches)) =
             (mpsc::channel(), mpsc::channel(), mpsc::channel());
-        let mail = Mail { news, failures, finds };
+        let mail = Mail { batches, failures, finds };
         stage.conductor.request_realtime(priorities.beside);
         stage.conductor.count_by(timeline.clone());
         let (lent, overheard) = heart.lend(shared.bell.clone(), overheard);
@@ -125,7 +126,7 @@ impl Engine {
                     false => beat(heart, shared, overheard, &failed),
                 });
                 let audio = audio.map_err(gone)?;
-                let listen = spawn("touch").spawn_scoped(scope, move || listen(ears, shared, &told));
+                let listen = spawn("touch").spawn_scoped(scope, move || listen(touch_input, shared, &told));
                 let followed = follower.as_mut().map(|follower| {
                     let heard = Fetched { blocks: fetched, drive: channels[0] * block, samples, block };
                     spawn("drift").spawn_scoped(scope, move || follow(follower, heard, shared, &found))
@@ -133,8 +134,8 @@ impl Engine {
                 let result = match listen.and(followed.transpose()) {
                     Ok(_) => stage.attend_and_fade(shared, |stage| {
                         stage.attend(seconds, shared, &mail, |stage| {
-                            let pulse = shared.pulse.lock().map(|pulse| pulse.clone()).unwrap_or_default();
-                            tell(stage, &pulse)
+                            let state = shared.state.lock().map(|state| state.clone()).unwrap_or_default();
+                            tell(stage, &state)
                         })
                     }),
                     Err(error) => Ok(Err(gone(error))),
@@ -149,7 +150,7 @@ impl Engine {
         self.heart.regain();
         self.stage.follower = follower;
         self.stage.clock = self.stage.conductor.desk().clock();
-        self.stage.counts = self.ears.counts();
+        self.stage.counts = self.touch_input.counts();
         result.unwrap_or_else(|panic| resume_unwind(panic))
     }
 }
@@ -196,7 +197,7 @@ fn follow(follower: &mut Follower, mut heard: Fetched, shared: &Shared, found: &
 }
 
 /// The thread that receives touches: their times are recorded when they come, whatever is computed meanwhile.
-fn listen(ears: &mut Ears, shared: &Shared, told: &mpsc::Sender<News>) {
+fn listen(touch_input: &mut TouchInput, shared: &Shared, told: &mpsc::Sender<TouchBatch>) {
     // Touches have priority over everything but the audio thread.
     let _ = priority::at(shared.priorities.touch);
     let mut now = 0.0f64;
@@ -204,15 +205,15 @@ fn listen(ears: &mut Ears, shared: &Shared, told: &mpsc::Sender<News>) {
         let at = Instant::now();
         // A device that stood still goes on from an earlier sample than touches were timed by meanwhile; time does not go back for them.
         now = shared.timeline.at(at).max(now);
-        let news = ears.hear(now);
-        if news.any() {
+        let batch = touch_input.poll(now);
+        if batch.any() {
             shared.timeline.note(now, at);
-            if told.send(news).is_err() {
+            if told.send(batch).is_err() {
                 return;
             }
             shared.bell.unpark();
         }
-        ears.wait(now);
+        touch_input.wait(now);
     }
 }
 
@@ -239,8 +240,8 @@ impl Stage {
                 return Ok(());
             }
             loop {
-                match mail.news.try_recv() {
-                    Ok(news) => self.take(news)?,
+                match mail.batches.try_recv() {
+                    Ok(batch) => self.take(batch)?,
                     Err(TryRecvError::Disconnected) => return Err(early("touch")),
                     Err(TryRecvError::Empty) => break,
                 }
@@ -325,11 +326,11 @@ fn early(thread: &str) -> LiveError {
 
 /// The audio thread for a device that calls the player by itself: it looks after the device.
 fn mind(heart: &mut Heartbeat, shared: &Shared, failed: &mpsc::Sender<DeviceError>) {
-    if let Ok(mut pulse) = shared.pulse.lock() {
-        pulse.priority = shared.priorities.called();
+    if let Ok(mut play_state) = shared.state.lock() {
+        play_state.priority = shared.priorities.called();
     }
     while shared.goes_on() {
-        match heart.device_mut().tend() {
+        match heart.device_mut().check() {
             Ok(wait) => {
                 tell(heart, shared);
                 std::thread::park_timeout(wait);
@@ -347,8 +348,8 @@ fn beat(
     failed: &mpsc::Sender<DeviceError>,
 ) {
     let priority = priority::at(shared.priorities.audio).unwrap_or_else(|refused| refused);
-    if let Ok(mut pulse) = shared.pulse.lock() {
-        pulse.priority = priority;
+    if let Ok(mut play_state) = shared.state.lock() {
+        play_state.priority = priority;
     }
     while shared.goes_on() {
         if let Err(error) = heart.beat() {
@@ -363,9 +364,9 @@ fn beat(
 
 fn tell(heart: &Heartbeat, shared: &Shared) {
     // Never waited for: whoever reads holds it for moments only.
-    if let Ok(mut pulse) = shared.pulse.try_lock() {
+    if let Ok(mut play_state) = shared.state.try_lock() {
         let status = heart.device().status();
-        (pulse.state, pulse.lost) = (status.state, status.lost);
+        (play_state.state, play_state.lost) = (status.state, status.lost);
     }
 }
 

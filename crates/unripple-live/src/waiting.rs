@@ -56,7 +56,7 @@ impl Conductor {
         let fade = self.fade(fade);
         if sample > now {
             self.waiting.retain(|(at, _), other| other.cue.voice != cue.voice || *at < sample);
-            if let Some(hold) = self.sounding.get(&cue.voice).and_then(|kept| kept.hold.as_ref()) {
+            if let Some(hold) = self.sounding.get(&cue.voice).and_then(|state| state.hold.as_ref()) {
                 hold.stop(At::Sample(sample), fade);
             }
             return false;

@@ -102,7 +102,7 @@ impl Device for Caller {
         panic!("a device that calls is asked for blocks");
     }
 
-    fn employ(&mut self, mut work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
+    fn install_work(&mut self, mut work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
         let (stop, counted, outputs) = (self.stop.clone(), self.counted.clone(), self.layout.outputs.len());
         self.thread = Some(std::thread::spawn(move || {
             let mut due = Instant::now();
@@ -125,7 +125,7 @@ impl Device for Caller {
         Ok(())
     }
 
-    fn dismiss(&mut self) -> Option<Box<dyn Work>> {
+    fn remove_work(&mut self) -> Option<Box<dyn Work>> {
         self.stop.store(true, Relaxed);
         self.thread.take()?.join().ok()
     }

@@ -139,14 +139,14 @@ fn a_server_that_was_killed_is_found_again() {
     let (mut before, mut away) = (0.0, false);
     let start = Instant::now();
     engine
-        .run(None, |stage, pulse| {
+        .run(None, |stage, play_state| {
             let peak = f32::from_bits(ear.peak.load(Relaxed));
             if server.is_some() && before == 0.0 && peak > 0.0 && stage.time() > 1.0 {
                 // Killed while it plays.
                 before = peak;
                 server = None;
                 bridge = None;
-            } else if server.is_none() && pulse.state != State::Running {
+            } else if server.is_none() && play_state.state != State::Running {
                 away = true;
                 server = Server::named(&name, PERIOD);
                 bridge = Some(server.as_ref().unwrap().bridge("ear", || listening(&ear, PERIOD)).unwrap());

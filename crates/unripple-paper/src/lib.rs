@@ -8,22 +8,22 @@
 //!
 //! # In reading order
 //!
-//! A [`study::Bench`] holds the data that many foci on one surface share, a [`study::Sampling`] draws
+//! A [`study::ContrastModel`] holds the data that many foci on one surface share, a [`study::Sampling`] draws
 //! random placements, and [`study::against_window()`] is the first of the functions that compare simulated
 //! contrast with its closed form. [`reproduce::Ask`], [`reproduce::run()`] and [`reproduce::Report`] are
 //! the options, the work and the results of `unripple reproduce`. [`commands`] has that command and those
 //! of all tasks by their names.
 //!
 //! ```
-//! use unripple_paper::study::{Bench, CELLS, Sampling, against_window};
+//! use unripple_paper::study::{ContrastModel, CELLS, Sampling, against_window};
 //! use unripple_physics::design::papers_surface;
 //!
 //! // The paper's membrane in half its band.
 //! let mut film = papers_surface();
 //! film.emission.band = [0.0, 1500.0];
-//! let bench = Bench::of(&film, CELLS)?;
+//! let model = ContrastModel::of(&film, CELLS)?;
 //! // Contrast of time reversal with 1 and with 8 actuators and a window of 30 ms, averaged over random places.
-//! let rows = against_window(&bench, &film, &[0.030], &[1, 8], &Sampling::default());
+//! let rows = against_window(&model, &film, &[0.030], &[1, 8], &Sampling::default());
 //! assert!((rows[1].simulated / rows[1].predicted - 1.0).abs() < 0.2);
 //! assert!(rows[1].simulated > 1.5 * rows[0].simulated);
 //! # Ok::<(), unripple_paper::study::StudyError>(())

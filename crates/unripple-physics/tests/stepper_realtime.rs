@@ -4,7 +4,7 @@ use assert_no_alloc::{AllocDisabler, assert_no_alloc};
 use std::sync::Arc;
 use unripple_core::{Edge, Edges, Finger, Point};
 use unripple_physics::stepper::{
-    Channel, InjectedFaults, Misbehaving, Reading, StepperOptions, VirtualSurface,
+    Channel, FaultySurface, InjectedFaults, Reading, StepperOptions, VirtualSurface,
 };
 use unripple_physics::{Circuit, Footprint, Load, Modes, stepper::Plant};
 
@@ -42,22 +42,22 @@ fn stepping_allocates_nothing() {
     let mut surface = VirtualSurface::new(&plant, &channels, 48e3, &options).unwrap();
     surface.set_probes(&[(Point::from_mm(62.0, 90.0), Reading::Velocity)]).unwrap();
     let places = [(62.0, 90.0), (40.0, 50.0), (100.0, 70.0)];
-    let footings = places.map(|(x, y)| plant.footing(Point::from_mm(x, y), 5e-3).unwrap());
+    let contacts = places.map(|(x, y)| plant.contact_weights(Point::from_mm(x, y), 5e-3).unwrap());
     let drift = InjectedFaults {
         tension: vec![(0.0, 1.0), (0.1, 1.01)],
         noise: 1e-6,
         latency: 5,
         ..InjectedFaults::default()
     };
-    let mut wrong = Misbehaving::new(surface.clone(), drift, FRAMES).unwrap();
+    let mut wrong = FaultySurface::new(surface.clone(), drift, FRAMES).unwrap();
     let drive: Vec<f64> = (0..8 * FRAMES).map(|i| (i as f64 * 0.7).sin()).collect();
     let (mut sensors, mut probes) = (vec![0.0; 8 * FRAMES], vec![0.0; FRAMES]);
     assert_no_alloc(|| {
         for block in 0..100 {
             match block {
-                5 => surface.touch_on(1, &Finger::default(), &footings[0]).unwrap(),
-                20 => surface.touch_on(2, &Finger::default(), &footings[1]).unwrap(),
-                40 => surface.move_onto(1, &footings[2]).unwrap(),
+                5 => surface.touch_on(1, &Finger::default(), &contacts[0]).unwrap(),
+                20 => surface.touch_on(2, &Finger::default(), &contacts[1]).unwrap(),
+                40 => surface.move_onto(1, &contacts[2]).unwrap(),
                 60 => surface.set_tension(1.02).unwrap(),
                 80 => surface.lift(1).unwrap(),
                 _ => {}

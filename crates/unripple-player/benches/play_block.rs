@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command as Run;
 use std::sync::Arc;
 use unripple_player::{
-    At, Command, Convolver, Limit, Options, Prepared, Running, Voice, WaveOptions, player,
+    At, Command, Convolver, Limit, Options, PreparedDrive, Running, Voice, WaveOptions, player,
 };
 
 const BLOCK: usize = 64;
@@ -99,10 +99,10 @@ fn limits() -> Vec<Limit> {
 fn pulses() -> Outcome {
     let (mut player, mut desk) = player(&Options { limits: limits(), ..Options::default() })?;
     let mut noise = Noise(7);
-    let drives: Vec<Arc<Prepared>> = (0..40)
+    let drives: Vec<Arc<PreparedDrive>> = (0..40)
         .map(|_| {
             let data = noise.many(8 * (TAPS + 1)).iter().map(|x| 0.4 * x).collect();
-            Prepared::new(8, data).map(Arc::new)
+            PreparedDrive::new(8, data).map(Arc::new)
         })
         .collect::<Result<_, _>>()?;
     let mut out = vec![0.0; 8 * BLOCK];
@@ -129,7 +129,7 @@ fn starts(outputs: usize) -> Outcome {
     let (mut player, mut desk) = player(&options)?;
     let mut noise = Noise(7);
     let data = noise.many(outputs * (TAPS + 1)).iter().map(|x| 0.1 * x).collect();
-    let drive = Arc::new(Prepared::new(outputs, data)?);
+    let drive = Arc::new(PreparedDrive::new(outputs, data)?);
     let many = options.work / (outputs * (TAPS + 1));
     let mut out = vec![0.0; outputs * BLOCK];
     let mut seconds = Vec::new();

@@ -1,6 +1,6 @@
 //! Detection of clicks in emitted samples, for tests.
 
-use crate::Prepared;
+use crate::PreparedDrive;
 
 /// Detector of clicks: counts steps in the emitted samples that no drive contains by itself.
 ///
@@ -9,10 +9,10 @@ use crate::Prepared;
 /// length of a block, the most that a fade changes it by.
 ///
 /// ```
-/// use unripple_player::{Clicks, Prepared};
+/// use unripple_player::{Clicks, PreparedDrive};
 ///
 /// let mut clicks = Clicks::new(1, 4);
-/// clicks.expect(&Prepared::new(1, vec![0.5, 1.0])?, 1.0, 1);
+/// clicks.expect(&PreparedDrive::new(1, vec![0.5, 1.0])?, 1.0, 1);
 /// assert_eq!(clicks.hear(0, &[0.0, 0.5, 1.0, 0.0]), 0);
 /// assert_eq!(clicks.hear(4, &[0.0, 0.0, 0.5, 0.5]), 1);
 /// # Ok::<(), unripple_player::PlayerError>(())
@@ -39,7 +39,7 @@ impl Clicks {
 
     /// Announces a drive that starts at sample `start` of the player's clock, multiplied by `gain`, so that
     /// its steps are not counted as clicks.
-    pub fn expect(&mut self, drive: &Prepared, gain: f32, start: u64) {
+    pub fn expect(&mut self, drive: &PreparedDrive, gain: f32, start: u64) {
         let steps = (0..drive.outputs()).map(|output| {
             let channel = drive.channel(output);
             let ends =

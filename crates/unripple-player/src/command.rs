@@ -1,6 +1,6 @@
 //! Commands for the audio thread, and when they act.
 
-use crate::{Prepared, PreparedFilters};
+use crate::{PreparedDrive, PreparedFilters};
 use std::sync::Arc;
 
 /// A number, chosen by the sender for a drive or waveform that it starts, by which later commands and
@@ -28,7 +28,7 @@ pub enum Command {
         /// Number of the voice, by which later commands and reports refer to it.
         voice: Voice,
         /// The drive that is played.
-        drive: Arc<Prepared>,
+        drive: Arc<PreparedDrive>,
         /// When the first sample of the drive is emitted.
         at: At,
         /// Factor on the drive; the limiter may lower it.
@@ -44,7 +44,7 @@ pub enum Command {
         /// Voice number of the comb or loop.
         voice: Voice,
         /// The new drive. A comb keeps its period.
-        drive: Arc<Prepared>,
+        drive: Arc<PreparedDrive>,
         /// Copies that start from here on play the new drive.
         at: At,
     },

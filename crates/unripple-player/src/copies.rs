@@ -2,7 +2,7 @@
 
 use crate::origin::Whose;
 use crate::shelf::Shelf;
-use crate::{Prepared, kernels};
+use crate::{PreparedDrive, kernels};
 
 /// A copy of a drive that is being played.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +69,7 @@ impl Sounding {
 
     /// Adds the block that begins at sample `clock` to planar `out` (outputs x samples).
     #[inline(always)]
-    pub(crate) fn mix(&self, shelf: &Shelf<Prepared>, clock: u64, block: usize, out: &mut [f32]) {
+    pub(crate) fn mix(&self, shelf: &Shelf<PreparedDrive>, clock: u64, block: usize, out: &mut [f32]) {
         let (from, to) = (self.start.max(clock), self.end().min(clock + block as u64));
         let Some(drive) = shelf.get(self.drive) else { return };
         if from >= to {

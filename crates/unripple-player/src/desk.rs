@@ -3,7 +3,7 @@
 use crate::hold::{Held, Hold};
 use crate::shelf::Garbage;
 use crate::standing::Standing;
-use crate::{Command, Count, FilterPlan, Meters, PlayerError, Prepared, PreparedFilters, Report};
+use crate::{Command, Count, FilterPlan, Meters, PlayerError, PreparedDrive, PreparedFilters, Report};
 use rtrb::{Consumer, Producer};
 use std::sync::Arc;
 
@@ -148,7 +148,7 @@ impl Desk {
     }
 
     /// Whether a drive has the same number of outputs as the player.
-    pub fn fits(&self, drive: &Prepared) -> bool {
+    pub fn fits(&self, drive: &PreparedDrive) -> bool {
         drive.outputs() == self.outputs
     }
 

@@ -7,7 +7,7 @@ use crate::ledger::Ledger;
 use crate::origin::Whose;
 use crate::outlet::Outlet;
 use crate::shelf::{Garbage, Shelf};
-use crate::{Count, Options, Prepared, Report, Voice, Why};
+use crate::{Count, Options, PreparedDrive, Report, Voice, Why};
 use pulp::Arch;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ const REFILLS: u64 = 4;
 
 /// The drives that repeat and those that are being played, and the ledger of what has been started.
 pub(crate) struct Events {
-    shelf: Shelf<Prepared>,
+    shelf: Shelf<PreparedDrive>,
     repeating: Vec<Repeating>,
     sounding: Vec<Sounding>,
     /// How many of them sounded before this block.
@@ -104,7 +104,7 @@ impl Events {
     /// accepted.
     pub(crate) fn start(
         &mut self,
-        (whose, drive): (Whose, Arc<Prepared>),
+        (whose, drive): (Whose, Arc<PreparedDrive>),
         sample: u64,
         (gain, period): (f32, Option<f64>),
         outlet: &mut Outlet,
@@ -141,7 +141,7 @@ impl Events {
     }
 
     /// Gives a repetition another drive.
-    pub(crate) fn swap(&mut self, voice: Voice, drive: Arc<Prepared>, outlet: &mut Outlet) {
+    pub(crate) fn swap(&mut self, voice: Voice, drive: Arc<PreparedDrive>, outlet: &mut Outlet) {
         if let Some(why) = self.unfit(&drive) {
             self.refuse(voice, drive, why, outlet);
             return;
@@ -282,7 +282,7 @@ impl Events {
             || self.put_off.iter().any(|held| is(held.whose))
     }
 
-    fn unfit(&self, drive: &Prepared) -> Option<Why> {
+    fn unfit(&self, drive: &PreparedDrive) -> Option<Why> {
         if drive.outputs() != self.options.outputs {
             return Some(Why::Outputs);
         }
@@ -374,7 +374,7 @@ impl Events {
         }
     }
 
-    fn refuse(&mut self, voice: Voice, drive: Arc<Prepared>, why: Why, outlet: &mut Outlet) -> bool {
+    fn refuse(&mut self, voice: Voice, drive: Arc<PreparedDrive>, why: Why, outlet: &mut Outlet) -> bool {
         outlet.discard(Garbage::Drive(drive));
         outlet.refuse(Some(voice), why);
         false

@@ -16,10 +16,10 @@ const RING: u32 = u32::MAX;
 ///
 /// ```
 /// use std::sync::Arc;
-/// use unripple_player::{At, Command, Options, Prepared, Voice, player};
+/// use unripple_player::{At, Command, Options, PreparedDrive, Voice, player};
 ///
 /// let (mut player, mut desk) = player(&Options { outputs: 1, ..Options::default() })?;
-/// let drive = Arc::new(Prepared::new(1, vec![0.5])?);
+/// let drive = Arc::new(PreparedDrive::new(1, vec![0.5])?);
 /// let comb = Command::Start { voice: Voice(1), drive, at: At::Now, gain: 1.0, period: Some(64.0) };
 /// let hold = desk.hold(comb).map_err(|_| "no room")?;
 /// let mut block = [0.0; 64];

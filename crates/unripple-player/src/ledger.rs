@@ -17,7 +17,7 @@
 
 use crate::kernels;
 use crate::power::Powers;
-use crate::{Options, Prepared, Which};
+use crate::{Options, PreparedDrive, Which};
 
 /// P and N as rings of whole blocks, and the running powers that follow from them.
 pub(crate) struct Ledger {
@@ -73,7 +73,7 @@ impl Ledger {
 
     /// The largest share of `gain` with which a drive that starts at `start`, within this block, passes no limit.
     #[inline(always)]
-    pub(crate) fn judge(&self, drive: &Prepared, start: u64, gain: f32) -> Verdict {
+    pub(crate) fn judge(&self, drive: &PreparedDrive, start: u64, gain: f32) -> Verdict {
         let mut verdict = Verdict { gain, by: None };
         for output in 0..self.outputs {
             self.judge_peak(drive.channel(output), output, start, &mut verdict);
@@ -86,7 +86,7 @@ impl Ledger {
 
     /// Adds a judged drive to the sums, from sample `start` of the clock on, times `gain`.
     #[inline(always)]
-    pub(crate) fn enter(&mut self, drive: &Prepared, start: u64, gain: f32) {
+    pub(crate) fn enter(&mut self, drive: &PreparedDrive, start: u64, gain: f32) {
         for output in 0..self.outputs {
             self.enter_channel(drive.channel(output), output, start, gain);
         }
@@ -124,7 +124,7 @@ impl Ledger {
 
     /// Adds the part of a copy that lies within one block, and before sample `end`, to an emptied block.
     #[inline(always)]
-    pub(crate) fn refill(&mut self, block: u64, drive: &Prepared, start: u64, end: u64, gain: f32) {
+    pub(crate) fn refill(&mut self, block: u64, drive: &PreparedDrive, start: u64, end: u64, gain: f32) {
         let first = block * self.block as u64;
         let (from, to) = (start.max(first), end.min(first + self.block as u64));
         if from >= to {
@@ -230,7 +230,7 @@ impl Ledger {
 
     /// Lowers the gain to what the limits on the power leave a channel.
     #[inline(always)]
-    fn judge_power(&self, drive: &Prepared, output: usize, start: u64, verdict: &mut Verdict) {
+    fn judge_power(&self, drive: &PreparedDrive, output: usize, start: u64, verdict: &mut Verdict) {
         let channel = drive.channel(output);
         let limits = self.powers.of(output);
         let asked = f64::from(verdict.gain.abs());

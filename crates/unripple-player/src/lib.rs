@@ -18,7 +18,7 @@
 //!   in a queue and cannot fail. The hold also tells when the player has ended or refused it. Commands that have not
 //!   yet begun can be taken back ([`Desk::withdraw`]). [`Desk::end`], or dropping the desk, ends everything with a
 //!   fade.
-//! - **Drives** ([`Prepared`]) are played once, as a comb, or as a loop. Voices add. Each copy is scaled as a whole
+//! - **Drives** ([`PreparedDrive`]) are played once, as a comb, or as a loop. Voices add. Each copy is scaled as a whole
 //!   when it starts, so that together with everything started before it no limit of any actuator can be exceeded,
 //!   whatever is stopped or faded later. Where no limit is reached, the samples of a single voice are emitted bit for
 //!   bit.
@@ -30,11 +30,11 @@
 //! ```
 //! use std::sync::Arc;
 //! use unripple_core::Drive;
-//! use unripple_player::{At, Command, Options, Prepared, Report, Voice, player};
+//! use unripple_player::{At, Command, Options, PreparedDrive, Report, Voice, player};
 //!
 //! let (mut player, mut desk) = player(&Options { outputs: 1, ..Options::default() })?;
 //! let drive = Drive::new(48e3, vec!["a1".into()], vec![vec![0.5, 1.0, -0.5]])?;
-//! let drive = Arc::new(Prepared::from_drive(&drive)?);
+//! let drive = Arc::new(PreparedDrive::from_drive(&drive)?);
 //! for voice in [Voice(1), Voice(2)] {
 //!     let (drive, at) = (drive.clone(), At::Sample(10));
 //!     assert!(desk.send(Command::Start { voice, drive, at, gain: 0.75, period: None }).is_ok());
@@ -80,4 +80,4 @@ pub use hold::Hold;
 pub use meters::{Count, Meters};
 pub use options::{Limit, Options, Running, WaveOptions};
 pub use player::{Player, player};
-pub use prepared::Prepared;
+pub use prepared::PreparedDrive;

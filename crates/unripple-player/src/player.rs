@@ -49,11 +49,11 @@ impl std::fmt::Debug for Player {
 ///
 /// ```
 /// use std::sync::Arc;
-/// use unripple_player::{At, Command, Options, Prepared, Voice, player};
+/// use unripple_player::{At, Command, Options, PreparedDrive, Voice, player};
 ///
 /// let options = Options { outputs: 1, ..Options::default() };
 /// let (mut player, mut desk) = player(&options)?;
-/// let drive = Arc::new(Prepared::new(1, vec![0.25, 0.5])?);
+/// let drive = Arc::new(PreparedDrive::new(1, vec![0.25, 0.5])?);
 /// let start = Command::Start { voice: Voice(1), drive, at: At::Sample(3), gain: 1.0, period: None };
 /// assert!(desk.send(start).is_ok());
 /// let mut block = [0.0; 64];

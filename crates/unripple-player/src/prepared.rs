@@ -7,22 +7,22 @@ use unripple_core::Drive;
 /// A drive in the form in which the audio thread plays it: planar float32 samples, all of them finite.
 ///
 /// ```
-/// use unripple_player::Prepared;
+/// use unripple_player::PreparedDrive;
 ///
-/// let drive = Prepared::new(2, vec![0.0, 0.5, 0.0, 0.0, -0.5, 0.0])?;
+/// let drive = PreparedDrive::new(2, vec![0.0, 0.5, 0.0, 0.0, -0.5, 0.0])?;
 /// assert_eq!((drive.outputs(), drive.samples()), (2, 3));
 /// assert_eq!(drive.channel(1), [0.0, -0.5, 0.0]);
 /// # Ok::<(), unripple_player::PlayerError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Prepared {
+pub struct PreparedDrive {
     outputs: usize,
     samples: usize,
     data: Vec<f32>,
     every: Option<usize>,
 }
 
-impl Prepared {
+impl PreparedDrive {
     /// A drive from planar samples, output after output, in the actuators' unit.
     ///
     /// # Errors
@@ -40,18 +40,18 @@ impl Prepared {
     /// A drive from a [`Drive`], with its samples rounded to float32 as devices emit them.
     ///
     /// # Errors
-    /// As [`Prepared::new`].
+    /// As [`PreparedDrive::new`].
     pub fn from_drive(drive: &Drive) -> Result<Self, PlayerError> {
         let data = drive.channels().iter().flatten().map(|&x| x as f32).collect();
         Self::new(drive.channels().len(), data)
     }
 
-    /// A loop: `data` is one pass (planar, as for [`Prepared::new`]), repeated without a gap. At its start it fades in
+    /// A loop: `data` is one pass (planar, as for [`PreparedDrive::new`]), repeated without a gap. At its start it fades in
     /// over `fade` samples, taken from the end of the pass; passes then overlap by as many samples, so that a loop may
     /// change its drive or gain from one pass to the next. The overlapping parts add up to the pass exactly.
     ///
     /// # Errors
-    /// As [`Prepared::new`], and [`PlayerError::Range`] for a fade of no sample or one longer than the pass.
+    /// As [`PreparedDrive::new`], and [`PlayerError::Range`] for a fade of no sample or one longer than the pass.
     pub fn looped(outputs: usize, data: Vec<f32>, fade: usize) -> Result<Self, PlayerError> {
         let pass = Self::new(outputs, data)?;
         let length = pass.samples;
@@ -126,17 +126,17 @@ mod tests {
 
     #[test]
     fn refuses_what_cannot_be_played() {
-        assert!(Prepared::new(0, vec![]).is_err());
-        assert!(Prepared::new(2, vec![]).is_err());
-        assert!(Prepared::new(2, vec![0.0; 5]).is_err());
-        let error = Prepared::new(2, vec![0.0, 0.0, 0.0, f32::NAN]).unwrap_err();
+        assert!(PreparedDrive::new(0, vec![]).is_err());
+        assert!(PreparedDrive::new(2, vec![]).is_err());
+        assert!(PreparedDrive::new(2, vec![0.0; 5]).is_err());
+        let error = PreparedDrive::new(2, vec![0.0, 0.0, 0.0, f32::NAN]).unwrap_err();
         assert!(error.to_string().contains("sample 1 of channel 1"), "{error}");
-        assert!(Prepared::looped(1, vec![0.0; 4], 5).is_err());
+        assert!(PreparedDrive::looped(1, vec![0.0; 4], 5).is_err());
     }
 
     #[test]
     fn copies_of_a_comb_add_to_its_peak() {
-        let drive = Prepared::new(1, vec![0.5, -1.0, 0.25, 0.5, -0.5, 0.0]).unwrap();
+        let drive = PreparedDrive::new(1, vec![0.5, -1.0, 0.25, 0.5, -0.5, 0.0]).unwrap();
         assert_eq!(drive.comb_peak(0, 3.0), 1.5);
         assert_eq!(drive.comb_peak(0, 100.0), 1.0);
         assert_eq!(drive.comb_peak(0, f64::NAN), 1.0);
@@ -147,7 +147,7 @@ mod tests {
     fn passes_of_a_loop_add_to_it_exactly() {
         let pass: Vec<f32> = (0..97).map(|i| (i as f32 * 0.71).sin() + 1e-3).collect();
         for fade in [1, 2, 31, 97] {
-            let drive = Prepared::looped(1, pass.clone(), fade).unwrap();
+            let drive = PreparedDrive::looped(1, pass.clone(), fade).unwrap();
             let mut sum = vec![0.0f32; fade + 4 * 97];
             for start in (0..4).map(|k| k * 97) {
                 sum[start..].iter_mut().zip(drive.channel(0)).for_each(|(a, b)| *a += b);

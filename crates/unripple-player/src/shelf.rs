@@ -1,7 +1,7 @@
 //! Shared data on the audio thread: their uses are counted there, and data without uses are sent away to be freed.
 
 use crate::hold::Held;
-use crate::{Prepared, PreparedFilters};
+use crate::{PreparedDrive, PreparedFilters};
 use std::sync::Arc;
 
 /// Data that are sent back to the desk to be freed there.
@@ -9,7 +9,7 @@ use std::sync::Arc;
 #[expect(dead_code, reason = "held to be dropped")]
 pub(crate) enum Garbage {
     /// A drive that no longer sounds.
-    Drive(Arc<Prepared>),
+    Drive(Arc<PreparedDrive>),
     /// Filters through which nothing goes any more.
     Filters(Arc<PreparedFilters>),
     /// A waveform that is over.

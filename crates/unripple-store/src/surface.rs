@@ -51,8 +51,8 @@ const KEYS: [&str; 11] = [
     "actuator",
 ];
 
-/// The surface that a text in format 1 describes. `file` names it in messages; an SVG outline is refused, because a
-/// text alone reaches no other file.
+/// Reads a surface from the text of a surface file in format 1. `file` is the name of the file in messages.
+/// An outline from an SVG file is refused, because with the text alone no other file can be read.
 ///
 /// # Errors
 /// [`FileFaults`] with all faults of the text, or only the first error of TOML syntax.
@@ -151,7 +151,7 @@ fn holes(root: &Section, rim: &Rim, fetch: &Fetch, faults: &mut Faults) -> (Vec<
 /// A fault if nothing keeps the sheet where it is: no edge does, and it has no stiffness.
 fn held(rim: &Rim, holes: &[Hole], sheet: Option<&Sheet>, faults: &mut Faults) {
     let Some(outline) = rim.edges.as_ref().and_then(|_| rim.outline(holes)) else { return };
-    if !outline.holds() && sheet.is_some_and(|sheet| sheet.young == 0.0) {
+    if !outline.resists_displacement() && sheet.is_some_and(|sheet| sheet.young == 0.0) {
         let found = "no edge fixed and no stiffness: nothing holds the sheet";
         let expected = "an edge that is clamped, supported or on springs with lift_n_per_mm2 above 0, or a sheet with \
                         young_gpa above 0";

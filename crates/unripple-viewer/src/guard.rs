@@ -16,7 +16,7 @@ pub struct Guard {
 
 /// The credentials that a request needs besides the right host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Needs {
+pub enum Credentials {
     /// Nothing but the right host.
     Nothing,
     /// The token, if the server has one.
@@ -27,7 +27,7 @@ pub enum Needs {
 
 /// Reason why a request is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Turned {
+pub enum Refusal {
     /// The host name in the request is not that of this server.
     Host,
     /// The page that makes the request was not served by this server.
@@ -68,19 +68,21 @@ impl Guard {
     }
 
     /// Checks whether a request is allowed; the error is the reason why not.
-    pub fn check(&self, uri: &Uri, headers: &HeaderMap, needs: Needs) -> Result<(), Turned> {
+    pub fn check(&self, uri: &Uri, headers: &HeaderMap, needs: Credentials) -> Result<(), Refusal> {
         let text = |name| headers.get(name).and_then(|value| value.to_str().ok());
-        let host = text(header::HOST).filter(|host| self.is_ours(host)).ok_or(Turned::Host)?;
+        let host = text(header::HOST).filter(|host| self.is_ours(host)).ok_or(Refusal::Host)?;
         let same = |origin: &str| origin.strip_prefix("http://").is_some_and(|from| from == host);
         match text(header::ORIGIN) {
-            Some(origin) if !same(origin) => return Err(Turned::Origin),
-            None if needs == Needs::Origin => return Err(Turned::Origin),
+            Some(origin) if !same(origin) => return Err(Refusal::Origin),
+            None if needs == Credentials::Origin => return Err(Refusal::Origin),
             _ => {}
         }
         let asked = uri.query().unwrap_or_default().split('&').find_map(|pair| pair.strip_prefix("token="));
         match &self.token {
-            Some(token) if needs != Needs::Nothing && !asked.is_some_and(|asked| alike(asked, token)) => {
-                Err(Turned::Token)
+            Some(token)
+                if needs != Credentials::Nothing && !asked.is_some_and(|asked| alike(asked, token)) =>
+            {
+                Err(Refusal::Token)
             }
             _ => Ok(()),
         }
@@ -116,7 +118,13 @@ fn alike(one: &str, other: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn asked(guard: &Guard, uri: &str, host: &str, origin: Option<&str>, needs: Needs) -> Result<(), Turned> {
+    fn asked(
+        guard: &Guard,
+        uri: &str,
+        host: &str,
+        origin: Option<&str>,
+        needs: Credentials,
+    ) -> Result<(), Refusal> {
         let mut headers = HeaderMap::new();
         headers.insert(header::HOST, host.parse().unwrap());
         if let Some(origin) = origin {
@@ -129,18 +137,21 @@ mod tests {
     fn only_own_pages_come_in() {
         let guard = Guard::new("127.0.0.1:8417".parse().unwrap(), None);
         let own = Some("http://127.0.0.1:8417");
-        assert_eq!(asked(&guard, "/link", "127.0.0.1:8417", own, Needs::Origin), Ok(()));
+        assert_eq!(asked(&guard, "/link", "127.0.0.1:8417", own, Credentials::Origin), Ok(()));
         assert_eq!(
-            asked(&guard, "/link", "localhost:8417", Some("http://localhost:8417"), Needs::Origin),
+            asked(&guard, "/link", "localhost:8417", Some("http://localhost:8417"), Credentials::Origin),
             Ok(())
         );
-        assert_eq!(asked(&guard, "/", "127.0.0.1:8417", None, Needs::Token), Ok(()));
-        assert_eq!(asked(&guard, "/link", "127.0.0.1:8417", None, Needs::Origin), Err(Turned::Origin));
+        assert_eq!(asked(&guard, "/", "127.0.0.1:8417", None, Credentials::Token), Ok(()));
+        assert_eq!(asked(&guard, "/link", "127.0.0.1:8417", None, Credentials::Origin), Err(Refusal::Origin));
         for origin in ["http://evil.example", "null", "http://127.0.0.1:8418", "https://127.0.0.1:8417"] {
-            assert_eq!(asked(&guard, "/", "127.0.0.1:8417", Some(origin), Needs::Token), Err(Turned::Origin));
+            assert_eq!(
+                asked(&guard, "/", "127.0.0.1:8417", Some(origin), Credentials::Token),
+                Err(Refusal::Origin)
+            );
         }
         for host in ["evil.example:8417", "127.0.0.1:80", "10.0.0.1:8417", "127.0.0.1"] {
-            assert_eq!(asked(&guard, "/", host, None, Needs::Token), Err(Turned::Host), "{host}");
+            assert_eq!(asked(&guard, "/", host, None, Credentials::Token), Err(Refusal::Host), "{host}");
         }
     }
 
@@ -148,14 +159,14 @@ mod tests {
     fn the_network_needs_the_token() {
         let guard = Guard::new("0.0.0.0:8417".parse().unwrap(), Some("abc123".into()));
         let host = "192.168.1.7:8417";
-        assert_eq!(asked(&guard, "/?x=1&token=abc123", host, None, Needs::Token), Ok(()));
+        assert_eq!(asked(&guard, "/?x=1&token=abc123", host, None, Credentials::Token), Ok(()));
         for uri in ["/", "/?token=", "/?token=abc12", "/?token=abc1234", "/?token=abc124"] {
-            assert_eq!(asked(&guard, uri, host, None, Needs::Token), Err(Turned::Token), "{uri}");
+            assert_eq!(asked(&guard, uri, host, None, Credentials::Token), Err(Refusal::Token), "{uri}");
         }
-        assert_eq!(asked(&guard, "/assets/app.js", host, None, Needs::Nothing), Ok(()));
+        assert_eq!(asked(&guard, "/assets/app.js", host, None, Credentials::Nothing), Ok(()));
         assert_eq!(
-            asked(&guard, "/?token=abc123", "name.example:8417", None, Needs::Token),
-            Err(Turned::Host)
+            asked(&guard, "/?token=abc123", "name.example:8417", None, Credentials::Token),
+            Err(Refusal::Host)
         );
     }
 }

@@ -1,7 +1,7 @@
 //! Answers to HTTP requests.
 
 use crate::assets;
-use crate::guard::{Guard, Needs, Turned};
+use crate::guard::{Credentials, Guard, Refusal};
 use crate::host::SessionHost;
 use crate::link;
 use crate::lobby::Seat;
@@ -59,21 +59,21 @@ async fn guard(State(desk): State<Desk>, request: Request, next: Next) -> Respon
     let path = request.uri().path();
     // The page's own files are no secret, and its modules cannot name a token to one another.
     let needs = if path.starts_with("/assets/") {
-        Needs::Nothing
+        Credentials::Nothing
     } else if path == "/link" {
-        Needs::Origin
+        Credentials::Origin
     } else {
-        Needs::Token
+        Credentials::Token
     };
-    if let Err(turned) = desk.guard.check(request.uri(), request.headers(), needs) {
+    if let Err(refusal) = desk.guard.check(request.uri(), request.headers(), needs) {
         desk.host.log(&format!(
-            "refused: {} {}: {turned:?}",
+            "refused: {} {}: {refusal:?}",
             request.method(),
             request.uri().path().escape_debug()
         ));
-        return (StatusCode::FORBIDDEN, why(turned)).into_response();
+        return (StatusCode::FORBIDDEN, why(refusal)).into_response();
     }
-    if let Some(seat) = request.extensions().get::<Arc<Seat>>().filter(|_| needs != Needs::Nothing) {
+    if let Some(seat) = request.extensions().get::<Arc<Seat>>().filter(|_| needs != Credentials::Nothing) {
         seat.admit();
     }
     let mut response = next.run(request).await;
@@ -89,11 +89,11 @@ async fn guard(State(desk): State<Desk>, request: Request, next: Next) -> Respon
     response
 }
 
-fn why(turned: Turned) -> &'static str {
-    match turned {
-        Turned::Host => "this name is not the viewer's: open the address that it printed\n",
-        Turned::Origin => "a page from elsewhere may not use the viewer\n",
-        Turned::Token => {
+fn why(refusal: Refusal) -> &'static str {
+    match refusal {
+        Refusal::Host => "this name is not the viewer's: open the address that it printed\n",
+        Refusal::Origin => "a page from elsewhere may not use the viewer\n",
+        Refusal::Token => {
             "the address lacks the viewer's token, or it has another by now: open the address that it printed\n"
         }
     }

@@ -171,11 +171,11 @@ fn blocks(
     for _ in 0..20 {
         surface.process(BLOCK, &drive, &mut sensors, &mut probes)?;
     }
-    let footings = [plant.footing(place(20), 5e-3)?, plant.footing(place(21), 5e-3)?];
+    let contacts = [plant.contact_weights(place(20), 5e-3)?, plant.contact_weights(place(21), 5e-3)?];
     Ok(Times::of(BLOCKS, |i| {
         if moving {
             for id in 0..fingers {
-                black_box(surface.move_onto(id, &footings[(i + id as usize) % 2]).is_ok());
+                black_box(surface.move_onto(id, &contacts[(i + id as usize) % 2]).is_ok());
             }
         }
         black_box(surface.process(BLOCK, black_box(&drive), &mut sensors, &mut probes).is_ok());

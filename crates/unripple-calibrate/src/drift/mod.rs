@@ -94,7 +94,7 @@ impl Drift {
     }
 
     /// Whether the surface should be calibrated again.
-    pub fn asks_for_calibration(&self) -> bool {
+    pub fn needs_calibration(&self) -> bool {
         matches!(self, Self::Unexplained { .. })
     }
 }

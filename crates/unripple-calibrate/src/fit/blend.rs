@@ -31,7 +31,7 @@ impl Fitted {
             let (actuator, p) = (n % count, n / count);
             let signal: Vec<f64> = all.response(actuator, p).iter().map(|h| f64::from(*h)).collect();
             let signal =
-                self.coil(actuator).map_or_else(|| signal.clone(), |coil| coil.behind(&signal, rate));
+                self.coil(actuator).map_or_else(|| signal.clone(), |coil| coil.filtered(&signal, rate));
             let signal = match reached {
                 Some(reached) => through(reached.band, &signal, rate, 0.0)?,
                 None => signal,

@@ -3,7 +3,8 @@
 use unripple_linalg::c64;
 use unripple_physics::{Entry, Load, Sensor, Transducer};
 
-/// A coil whose force and signal depend on frequency, unlike those of a gain and a latency.
+/// A coil whose force and sensor signal depend on frequency, so that a gain and a latency do not describe
+/// it.
 ///
 /// If its terminals are held at a voltage V, its force is bl V/(R + Ls), its signal for a velocity v the current bl v/(R + Ls), and its
 /// damping bl²/(R + Ls). Each is that of the resistance R alone times 1/(1 + τs), τ = L/R. With a housing, force and signal are
@@ -37,14 +38,14 @@ impl Coil {
         })
     }
 
-    /// Force and signal at a complex frequency s (1/s), as a share of those without inductance and without housing: the low-pass
-    /// 1/(1 + τs) of the circuit times what the housing leaves.
+    /// Force and signal at a complex frequency s (1/s), as a share of those without inductance and without
+    /// housing: the low-pass 1/(1 + τs) of the circuit times the transmission of the housing.
     pub fn lag(&self, s: c64) -> c64 {
         (s * self.time + 1.0).inv() * self.load.transmission(s)
     }
 
-    /// Mechanical impedance, in N·s/m, at a complex frequency s (1/s): that of the housing, or what the inductance adds to the damping
-    /// by the resistance alone.
+    /// Mechanical impedance, in N·s/m, at a complex frequency s (1/s), that the housing adds, or that the
+    /// inductance adds to the damping by the resistance alone.
     pub fn added(&self, s: c64) -> c64 {
         match self.load.housing {
             Some(_) => self.load.reaction(s),
@@ -60,12 +61,12 @@ impl Coil {
 
     /// Filters a signal by the inductance of the circuit and by the housing: `signal` is the signal of a coil without inductance and
     /// without housing, the result is the signal with both. `rate` is in Hz.
-    pub fn behind(&self, signal: &[f64], rate: f64) -> Vec<f64> {
-        self.sensor.hear(signal, rate).into_iter().map(|x| x / self.plain).collect()
+    pub fn filtered(&self, signal: &[f64], rate: f64) -> Vec<f64> {
+        self.sensor.signal(signal, rate).into_iter().map(|x| x / self.plain).collect()
     }
 }
 
-/// The share of [`Coil::lag`], dimensionless; 1 where there is no such coil.
+/// The factor of [`Coil::lag`], dimensionless; 1 if `coil` is `None`.
 pub(crate) fn lag(coil: Option<&Coil>, s: c64) -> c64 {
     coil.map_or(c64::new(1.0, 0.0), |coil| coil.lag(s))
 }
@@ -117,7 +118,7 @@ mod tests {
             let (rate, s) = (48e3, c64::new(0.0, TAU * 400.0));
             let swell: Vec<f64> = (0..9600).map(|i| (s.im * i as f64 / rate).cos()).collect();
             let share = coil.lag(s);
-            for (i, found) in coil.behind(&swell, rate).iter().enumerate().skip(6000) {
+            for (i, found) in coil.filtered(&swell, rate).iter().enumerate().skip(6000) {
                 let exact = (share * c64::new(0.0, s.im * i as f64 / rate).exp()).re;
                 assert!((found - exact).abs() < 1e-3, "{driven_by:?} {i}: {found} {exact}");
             }

@@ -95,7 +95,7 @@ pub struct Fitted {
     /// Whether the model explains the measurement.
     pub verdict: Verdict,
     responses: ModalResponses,
-    beyond: ModalResponses,
+    all_modes: ModalResponses,
     /// The model up to the measurement's band, beyond that of the surface, where the measurement was limited to one.
     reached: Option<Reached>,
     sensors: Mat<f64>,
@@ -222,7 +222,7 @@ impl Fitted {
         let medium = Medium::of(&nominal.sheet);
         let terms = case.layout.waves.iter().enumerate();
         let following = Following::of(&found.residual.lines);
-        let beyond = answers.responses([0.0, f64::INFINITY], nominal)?.responses;
+        let all_modes = answers.responses([0.0, f64::INFINITY], nominal)?.responses;
         Ok(Self {
             tension: answers.ratio(Unknown::Tension, medium.tension),
             bending_stiffness: answers.ratio(Unknown::Bending, medium.bending_stiffness),
@@ -239,9 +239,9 @@ impl Fitted {
             sensors,
             bending_shares,
             coils: case.basis.coils.clone(),
-            reached: limited.map(|band| Reached::of(&beyond, band)),
+            reached: limited.map(|band| Reached::of(&all_modes, band)),
             responses,
-            beyond,
+            all_modes,
         })
     }
 
@@ -269,15 +269,15 @@ impl Fitted {
             actuators: actuators.iter().map(|a| self.actuators[*a]).collect(),
             coils: actuators.iter().map(|a| self.coils[*a].clone()).collect(),
             responses: part(&self.responses),
-            beyond: part(&self.beyond),
+            all_modes: part(&self.all_modes),
             reached: self.reached.as_ref().map(|reached| reached.with(part)),
             ..self.clone()
         }
     }
 
     /// Modal responses with all modes of the fit, also those outside the surface's band.
-    pub(crate) fn beyond(&self) -> &ModalResponses {
-        &self.beyond
+    pub(crate) fn all_modes(&self) -> &ModalResponses {
+        &self.all_modes
     }
 
     /// Modal responses with all modes of the fit that can be sampled at its rate, where it was fitted to responses limited to a band; else
@@ -300,7 +300,7 @@ impl Fitted {
     #[must_use]
     pub fn scaled(mut self, gain: f64) -> Self {
         let reached = self.reached.as_mut().map(|reached| &mut reached.responses);
-        for responses in [&mut self.responses, &mut self.beyond].into_iter().chain(reached) {
+        for responses in [&mut self.responses, &mut self.all_modes].into_iter().chain(reached) {
             responses.input = &responses.input * Scale(gain);
         }
         self

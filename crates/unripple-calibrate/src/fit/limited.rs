@@ -65,7 +65,7 @@ impl Limited {
         ModalSynth::new(&modes.poles, rate, samples, ACCURACY).respond(weights.as_ref(), &mut all)?;
         let circuits = |(n, response): (usize, &[f64])| {
             let coils = [n / actuators, n % actuators].map(|a| basis.coil(a));
-            coils.into_iter().flatten().fold(response.to_vec(), |signal, coil| coil.behind(&signal, rate))
+            coils.into_iter().flatten().fold(response.to_vec(), |signal, coil| coil.filtered(&signal, rate))
         };
         let whole: Vec<Vec<f64>> = all.chunks(samples).enumerate().map(circuits).collect();
         let cut = whole.iter().map(|response| through(band, response, rate, values.late));

@@ -1,11 +1,12 @@
-//! Responses of actuators at each other's sensors and their own, by a model.
+//! Modelled responses of actuators at each other's sensors and at their own.
 
 use crate::CalibrateError;
 use unripple_core::{ModalResponses, Onset, Surface};
 use unripple_linalg::Mat;
 use unripple_physics::{Sensor, sensed, sensors};
 
-/// A model of the responses of a surface's actuators at each other's sensors, each in the unit of its [`Sensor`].
+/// A model of the responses of all sensors of a surface's actuators to all its actuators, each in the unit
+/// of its [`Sensor`].
 #[derive(Clone, Debug)]
 pub struct Hearing {
     sensors: Vec<Sensor>,
@@ -15,7 +16,7 @@ pub struct Hearing {
 }
 
 impl Hearing {
-    /// The model of a surface with these modal responses.
+    /// The model of the responses between a surface's actuators, from the surface's modal responses.
     ///
     /// # Errors
     /// [`CalibrateError::Physics`] for actuators that are not valid, [`CalibrateError::Count`] if the responses have another number of
@@ -39,25 +40,30 @@ impl Hearing {
         &self.sensors
     }
 
-    /// Frequency (Hz) and decay rate (1/s) of each oscillation (pole) of the model, frequencies ascending; several may have the same.
+    /// Frequency (Hz) and decay rate (1/s) of each oscillation (pole) of the model, frequencies ascending;
+    /// several oscillations may have the same frequency.
     pub fn tones(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         self.model.poles.iter().map(|pole| [pole.omega / std::f64::consts::TAU, pole.sigma])
     }
 
-    /// Whether every oscillation that an actuator senses is in phase with that actuator's own drive: no circuits and no housings between,
-    /// and no damping that couples modes ([`Onset::Velocity`] throughout). Coils driven by a voltage couple modes strongly; masses that
-    /// do not dissipate, on a sheet that does, couple them a little.
+    /// Whether every oscillation that an actuator senses is in phase with the drive of that actuator: there
+    /// are no circuits, no housings, and no damping that couples modes ([`Onset::Velocity`] throughout).
+    /// Coils driven by a voltage couple modes strongly; masses that do not dissipate, on a sheet that does,
+    /// couple them a little.
     pub fn in_step(&self) -> bool {
         let housed = self.sensors.iter().any(|sensor| sensor.housing.is_some());
-        !self.closed() && !housed && self.model.poles.iter().all(|pole| pole.onset == Onset::Velocity)
+        !self.has_voltage_driven_coils()
+            && !housed
+            && self.model.poles.iter().all(|pole| pole.onset == Onset::Velocity)
     }
 
     /// Whether any actuator is a coil driven by a voltage.
-    pub fn closed(&self) -> bool {
+    pub fn has_voltage_driven_coils(&self) -> bool {
         self.sensors.iter().any(|sensor| sensor.circuit.is_some())
     }
 
-    /// Response at a sensor, in its unit, to a unit impulse of a drive, from time 0 on.
+    /// Response at a sensor to a unit impulse of an actuator's drive, `samples` samples from time 0 on, in
+    /// the sensor's unit.
     pub fn response(&self, sensor: usize, drive: usize, samples: usize) -> Vec<f64> {
         let rate = self.model.conditions.rate;
         let mut moved = vec![0.0; samples];
@@ -70,6 +76,6 @@ impl Hearing {
                 [u, v] = [step[0][0] * u + step[0][1] * v, step[1][0] * u + step[1][1] * v];
             }
         }
-        self.sensors.get(sensor).map_or(Vec::new(), |sensor| sensor.hear(&moved, rate))
+        self.sensors.get(sensor).map_or(Vec::new(), |sensor| sensor.signal(&moved, rate))
     }
 }

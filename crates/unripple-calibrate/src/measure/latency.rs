@@ -141,7 +141,7 @@ fn roughly(
     (lead, rate): (usize, f64),
     band: Band,
 ) -> Result<(Vec<f64>, Vec<f64>), CalibrateError> {
-    let away = usize::from(model.closed() || highest_housing(model) > 0.0);
+    let away = usize::from(model.has_voltage_driven_coils() || highest_housing(model) > 0.0);
     let pairs: Vec<(&[f64], Vec<f64>)> = (0..some.len())
         .map(|b| {
             let a = (b + away) % some.len();

@@ -138,7 +138,7 @@ impl Session {
     ///
     /// # Errors
     /// [`CalibrateError::Count`] for another number of sensors or responses than actuators.
-    pub fn follow(&mut self, sensors: &[Channel]) -> Result<(), CalibrateError> {
+    pub fn set_reference(&mut self, sensors: &[Channel]) -> Result<(), CalibrateError> {
         let count = self.wires.drives.len();
         let counts = sensors.iter().map(|channel| channel.responses.len()).chain([sensors.len()]);
         if let Some(found) = counts.into_iter().find(|found| *found != count) {

@@ -92,7 +92,7 @@ impl TapSession {
             let response: Vec<f64> =
                 known.response(actuator, 0).iter().map(|h| gain * f64::from(*h)).collect();
             let coil = self.fitted.as_ref().and_then(|fitted| fitted.coil(actuator));
-            coil.map_or_else(|| response.clone(), |coil| coil.behind(&response, self.rate))
+            coil.map_or_else(|| response.clone(), |coil| coil.filtered(&response, self.rate))
         };
         (0..self.sensors.len()).map(one).collect()
     }

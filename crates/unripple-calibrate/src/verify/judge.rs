@@ -108,7 +108,7 @@ impl Bench<'_> {
             .into_par_iter()
             .map(|p| {
                 let own: Vec<f64> = delays.iter().map(|late| late - self.removed(p)).collect();
-                self.sheet.likest(&heard[p], &own)
+                self.sheet.largest_correlations(&heard[p], &own)
             })
             .collect();
         let sum = |d: usize| tables.iter().map(|t| t[d]).sum::<f64>();
@@ -144,8 +144,8 @@ impl Bench<'_> {
             return judged(Kind::Elsewhere(spot, self.whose(point, spot.at)));
         }
         let delays = self.sheet.delays(DELAYS[0] - 0.02, DELAYS[1] + 0.02);
-        let latest = self.sheet.latest(heard, at, &delays);
-        if let Some(spot) = latest.filter(|s| s.found.unexplained() < self.limit()) {
+        let best = self.sheet.best_delay(heard, at, &delays);
+        if let Some(spot) = best.filter(|s| s.found.unexplained() < self.limit()) {
             let spot = self.sheet.nearby(heard, at, spot.late, 0.02 * self.wave);
             return judged(Kind::Late(spot.late - late));
         }
@@ -163,7 +163,7 @@ impl Bench<'_> {
 
     /// Factor by which the number of modes reduces the error of a delay found by a fit.
     fn told(&self) -> f64 {
-        (8.0 / self.quick.fitted.beyond().poles.len().max(4) as f64).sqrt()
+        (8.0 / self.quick.fitted.all_modes().poles.len().max(4) as f64).sqrt()
     }
 
     /// Error (m) of a place along each axis: the displacement that leaves as much unexplained as the model does. Along one axis the mean

@@ -75,14 +75,15 @@ impl Levels {
 
     /// Factor that would bring a point's responses to the common gain; `None` if they have that gain
     /// already, or if there is no common gain.
-    pub fn off(&self, judged: &Judged) -> Option<f64> {
+    pub fn factor_to_common(&self, judged: &Judged) -> Option<f64> {
         let gain = self.gain(judged);
         self.common.filter(|common| !same(gain, *common)).map(|common| common / gain)
     }
 
-    /// The factor of [`Levels::off`], if it is certain; otherwise `None`. Two conditions hold then. The gains at the stated place and at
-    /// the best place nearby are equal, and neither is the common one, since a probe a little beside its place has another gain near a
-    /// node. And the factor is negative, or its logarithm exceeds three standard errors, which follow from the share that the model leaves
+    /// The factor of [`Levels::factor_to_common`], if it is certain; otherwise `None`. Two conditions hold
+    /// then. The gains at the stated place and at the best place nearby are equal, and neither is the common
+    /// one, since a probe a little beside its place has another gain near a node. And the factor is negative,
+    /// or its logarithm exceeds three standard errors, which follow from the share that the model leaves
     /// unexplained and the number of `actuators`.
     pub fn correction(&self, judged: &Judged, actuators: usize) -> Option<f64> {
         let [own, nearby] = [judged.own, judged.nearby.found];
@@ -92,7 +93,7 @@ impl Levels {
         let sure = |factor: &f64| *factor < 0.0 || factor.ln().abs() > SURE * error;
         let common = |gain: f64| self.common.is_some_and(|common| same(gain, common));
         let both = same(own.gain, nearby.gain) && !common(own.gain) && !common(nearby.gain);
-        self.off(judged).filter(|_| both).filter(sure)
+        self.factor_to_common(judged).filter(|_| both).filter(sure)
     }
 }
 
@@ -136,7 +137,9 @@ mod tests {
         ];
         for one in good {
             assert!(
-                !levels.moved(&one) && levels.off(&one).is_none() && levels.correction(&one, 8).is_none()
+                !levels.moved(&one)
+                    && levels.factor_to_common(&one).is_none()
+                    && levels.correction(&one, 8).is_none()
             );
         }
         // Three millimetres beside its place, alone and with another gain.
@@ -155,10 +158,10 @@ mod tests {
         assert_eq!(levels.correction(&point(-1.0, -1.0, 0.3), 8), Some(-1.0));
         // Near a node: another gain a millimetre beside it.
         let beside = point(1.0, 1.3, 0.1);
-        assert!(levels.off(&beside).is_none() && levels.correction(&beside, 8).is_none());
+        assert!(levels.factor_to_common(&beside).is_none() && levels.correction(&beside, 8).is_none());
         // Of a response that the model hardly explains: 0.39 / sqrt(8) is 14 %.
         let unsure = point(1.3, 1.3, 0.39);
-        assert!(levels.off(&unsure).is_some() && levels.correction(&unsure, 8).is_none());
+        assert!(levels.factor_to_common(&unsure).is_some() && levels.correction(&unsure, 8).is_none());
         assert!(levels.correction(&unsure, 80).is_some());
     }
 }

@@ -125,7 +125,7 @@ impl Quick {
 
     /// The sensor that is least like the model at its place.
     fn worst(&self, fitted: &Fitted, part: &Surface, left: &[usize]) -> Option<usize> {
-        let checker = Checker::new(fitted.beyond(), &self.frequencies);
+        let checker = Checker::new(fitted.all_modes(), &self.frequencies);
         let like = |sensor: &usize| {
             let row = checker.project(&self.sensed[*sensor]);
             checker.at(&row, part.actuators[*sensor].at, fitted.late.value).likeness
@@ -174,7 +174,7 @@ impl Quick {
 
     /// The fitted model, prepared for comparisons with measured responses.
     pub fn checker(&self) -> Checker<'_> {
-        Checker::new(self.fitted.beyond(), &self.frequencies)
+        Checker::new(self.fitted.all_modes(), &self.frequencies)
     }
 }
 

@@ -70,7 +70,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// For each assumed delay (s), the largest squared correlation with the model over all places, 0 to 1.
-    pub fn likest(&self, heard: &Projected, delays: &[f64]) -> Vec<f64> {
+    pub fn largest_correlations(&self, heard: &Projected, delays: &[f64]) -> Vec<f64> {
         let products = product(self.shapes.as_ref(), self.checker.products(heard, delays).as_ref());
         (0..delays.len())
             .map(|d| {
@@ -122,7 +122,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// The delay, among `delays` (s), at which measured responses fit the model at the place `at` (m) best.
-    pub fn latest(&self, heard: &Projected, at: Point, delays: &[f64]) -> Option<Spot> {
+    pub fn best_delay(&self, heard: &Projected, at: Point, delays: &[f64]) -> Option<Spot> {
         let found = self.checker.late(heard, at, delays);
         let spots = delays.iter().zip(found).map(|(late, found)| Spot { at, late: *late, found });
         spots.max_by(|a, b| a.found.likeness.abs().total_cmp(&b.found.likeness.abs()))

@@ -160,7 +160,7 @@ pub(super) fn gather(
                 "point {number}: its gain is {:.2} times that of the other points{sign}: corrected",
                 1.0 / factor.abs()
             ));
-        } else if let Some(factor) = levels.off(&judged[p]).filter(|_| bench.options.probe) {
+        } else if let Some(factor) = levels.factor_to_common(&judged[p]).filter(|_| bench.options.probe) {
             notes.push(format!(
                 "point {number}: its gain seems to be {:.2} times that of the other points, which a wrong place or an error of \
                  the model may also explain: not corrected",

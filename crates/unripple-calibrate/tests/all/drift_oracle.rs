@@ -58,6 +58,6 @@ fn what_no_tension_explains_asks_for_calibration() {
         .collect();
     ping[0][0] = 100.0;
     let drift = tracker.observe(&ping, &heard).unwrap();
-    assert!(drift.asks_for_calibration(), "{drift:?}");
+    assert!(drift.needs_calibration(), "{drift:?}");
     assert!(matches!(drift, Drift::Unexplained { excess, .. } if excess > 3.0));
 }

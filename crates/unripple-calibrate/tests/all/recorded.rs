@@ -134,7 +134,7 @@ fn tension_is_followed_where_one_of_eight_is_dead() {
         let silent = sensor.responses.iter_mut().enumerate().filter(|(drive, _)| *drive == 2 || number == 2);
         silent.for_each(|(_, response)| response.fill(0.0));
     }
-    session.follow(&sensors).unwrap();
+    session.set_reference(&sensors).unwrap();
     let found = session.measure(&mut rig, 0, AT, 0, Listen::Probe).unwrap().remove(0);
     let truth = bench.truth(session.band(), found.responses[0].len());
     let alive = |rows: &[Vec<f64>]| [&rows[..2], &rows[3..]].concat();

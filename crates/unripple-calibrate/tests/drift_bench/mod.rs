@@ -13,7 +13,7 @@ use unripple_core::{ModalResponses, Point, Responses, Shapes, Surface};
 use unripple_focus::{Focuser, Method, Options, Target};
 use unripple_linalg::Mat;
 use unripple_physics::design::papers_surface;
-use unripple_physics::stepper::{InjectedFaults, Misbehaving};
+use unripple_physics::stepper::{FaultySurface, InjectedFaults};
 use unripple_physics::{Modes, ResponseOptions, StepperOptions, VirtualSurface, responses};
 
 pub const WINDOW: f64 = 0.030;
@@ -234,10 +234,10 @@ impl Bench {
         modal
     }
 
-    fn plant(&self, tension: Vec<(f64, f64)>, noise: f64) -> Misbehaving {
+    fn plant(&self, tension: Vec<(f64, f64)>, noise: f64) -> FaultySurface {
         let surface =
             VirtualSurface::of(&self.surface, self.modes.clone(), &StepperOptions::default()).unwrap();
-        Misbehaving::new(surface, InjectedFaults { tension, noise, ..InjectedFaults::default() }, BLOCK)
+        FaultySurface::new(surface, InjectedFaults { tension, noise, ..InjectedFaults::default() }, BLOCK)
             .unwrap()
     }
 
@@ -251,7 +251,7 @@ impl Bench {
     }
 
     /// Peak and contrast at the focal instant, and what the sensors heard over the period.
-    fn period(&self, plant: &mut Misbehaving, drive: &[Vec<f64>]) -> ((f64, f64), Vec<Vec<f64>>) {
+    fn period(&self, plant: &mut FaultySurface, drive: &[Vec<f64>]) -> ((f64, f64), Vec<Vec<f64>>) {
         let samples = (PERIOD * RATE) as usize;
         let focal = (WINDOW * RATE) as usize + 1;
         let mut heard = vec![Vec::new(); 8];

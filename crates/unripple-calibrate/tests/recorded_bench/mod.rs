@@ -290,7 +290,7 @@ impl Bench {
         let mut session = self.session(options);
         let mut rig = self.rig(&session, &[first.clone(), second.clone()]);
         let sensors = session.measure(&mut rig, 1, AT, 0, Listen::Sensors)?;
-        session.follow(&sensors)?;
+        session.set_reference(&sensors)?;
         let found = session.measure(&mut rig, 0, AT, 0, Listen::Probe)?.remove(0);
         Ok((sensors, found, session))
     }

@@ -9,20 +9,20 @@ use std::thread::Thread;
 use std::time::{Duration, Instant};
 use unripple_core::Work;
 
-/// How long a freewheeling server waits for drive before it goes on without. Much longer, and a program that ended
-/// without closing would hold the server; much shorter, and a busy machine loses blocks.
+/// How long a freewheeling server waits for drive before it continues without. If much longer, a program
+/// that ended without closing would block the server; if much shorter, a busy machine would lose blocks.
 const FREEWHEEL_PATIENCE: Duration = Duration::from_secs(2);
 
-/// Pieces of work, and threads to be woken, that may be on their way between the program and the server's thread; one
-/// of each is usual.
+/// Largest number of work objects, and of threads to be woken, in transit between the program and the
+/// server's thread; one of each is usual.
 const HANDED: usize = 8;
 
-/// The end of the rings in the server's thread.
+/// The end of the ring buffers in the server's thread.
 ///
-/// Either the thread does work that it was given, or samples cross frame by frame: a frame of drive is one sample of every output
-/// and one 0; a recorded frame is one sample of every input and, in the first frame of a cycle, the number of cycles missed
-/// before it. A cycle either takes and gives all its frames, or none: so drive and the inputs that answer it stay in
-/// step whatever is missed.
+/// Either the thread runs a [`Work`] object, or samples are passed frame by frame: a frame of drive is one
+/// sample of every output and one 0; a recorded frame is one sample of every input and, in the first frame
+/// of a cycle, the number of cycles missed before it. A cycle passes either all its frames or none, so that
+/// drive and the inputs that answer it stay in step even if cycles are missed.
 pub(super) struct Crossing {
     outputs: usize,
     inputs: usize,
@@ -30,36 +30,36 @@ pub(super) struct Crossing {
     heard: Producer<f32>,
     events: Arc<Events>,
     closing: Arc<AtomicBool>,
-    /// Whether nobody drives: not yet, or not any more.
+    /// Whether no drive is sent: not yet, or no longer.
     idle: bool,
     started: bool,
     missed: u32,
     work: Option<Box<dyn Work>>,
     hired: Consumer<Box<dyn Work>>,
     fired: Producer<Box<dyn Work>>,
-    dismissing: Arc<AtomicBool>,
-    /// Who waits for blocks, and those who did before.
+    removing: Arc<AtomicBool>,
+    /// The thread that waits for blocks, and those that waited before.
     waiter: Option<Thread>,
     waiters: Consumer<Thread>,
     gone: Producer<Thread>,
-    /// The server's count of samples at which the next cycle begins, if none is left out.
+    /// The server's sample count at which the next cycle begins, if none is left out.
     due: Option<u32>,
 }
 
-/// The end of the rings in the program.
+/// The end of the ring buffers in the program.
 pub(super) struct Shore {
     pub(super) drive: Producer<f32>,
     pub(super) heard: Consumer<f32>,
     pub(super) closing: Arc<AtomicBool>,
     pub(super) hired: Producer<Box<dyn Work>>,
     pub(super) fired: Consumer<Box<dyn Work>>,
-    pub(super) dismissing: Arc<AtomicBool>,
+    pub(super) removing: Arc<AtomicBool>,
     pub(super) waiters: Producer<Thread>,
     pub(super) gone: Consumer<Thread>,
 }
 
 impl Crossing {
-    /// Both ends of two rings of `frames` frames.
+    /// Both ends of the ring buffers, with room for `frames` frames each way.
     pub(super) fn new(outputs: usize, inputs: usize, frames: usize, events: Arc<Events>) -> (Self, Shore) {
         let (push, take) = RingBuffer::new(frames * (outputs + 1));
         let (give, pop) = RingBuffer::new(frames * (inputs + 1));
@@ -68,14 +68,14 @@ impl Crossing {
         let (wait, waiters) = RingBuffer::new(HANDED);
         let (leave, left) = RingBuffer::new(HANDED);
         let closing = Arc::new(AtomicBool::new(false));
-        let dismissing = Arc::new(AtomicBool::new(false));
+        let removing = Arc::new(AtomicBool::new(false));
         let shore = Shore {
             drive: push,
             heard: pop,
             closing: closing.clone(),
             hired: hire,
             fired,
-            dismissing: dismissing.clone(),
+            removing: removing.clone(),
             waiters: wait,
             gone: left,
         };
@@ -92,7 +92,7 @@ impl Crossing {
             work: None,
             hired,
             fired: fire,
-            dismissing,
+            removing,
             waiter: None,
             waiters,
             gone: leave,
@@ -128,7 +128,7 @@ impl Crossing {
         false
     }
 
-    /// Moves one cycle's frames; `None` if the rings do not hold them after all.
+    /// Passes one cycle's frames; `None` if the ring buffers do not have them or no room for them.
     fn pass(&mut self, cycle: &mut Cycle) -> Option<()> {
         let (frames, sent, given) = (cycle.frames(), self.outputs + 1, self.inputs + 1);
         let drive = self.drive.read_chunk(frames * sent).ok()?;
@@ -151,7 +151,7 @@ impl Crossing {
         Some(())
     }
 
-    /// Counts what the server left out since the last cycle.
+    /// Counts the samples that the server left out since the last cycle.
     fn count(&mut self, cycle: &Cycle) {
         let Some((frame, _)) = cycle.time() else { return };
         let skipped = self.due.map_or(0, |due| frame.wrapping_sub(due));
@@ -162,7 +162,7 @@ impl Crossing {
         self.due = Some(frame.wrapping_add(cycle.frames() as u32));
     }
 
-    /// Takes over threads and work from the program, and hands back those that it asks for.
+    /// Receives threads and work from the program, and hands back those that it requests.
     fn hand_over(&mut self) {
         while let Ok(waiter) = self.waiters.pop() {
             if let Some(before) = self.waiter.replace(waiter) {
@@ -173,12 +173,12 @@ impl Crossing {
         if let Ok(work) = self.hired.pop() {
             self.work = Some(work);
         }
-        if self.dismissing.load(Ordering::Acquire) {
-            self.dismiss();
+        if self.removing.load(Ordering::Acquire) {
+            self.remove_work();
         }
     }
 
-    /// One cycle of work, or of samples that cross.
+    /// Processes one cycle: runs the work, or passes samples.
     fn serve(&mut self, cycle: &mut Cycle) {
         if let Some(work) = &mut self.work {
             return work.cycle(cycle);
@@ -194,7 +194,7 @@ impl Crossing {
         }
     }
 
-    fn dismiss(&mut self) {
+    fn remove_work(&mut self) {
         if let Some(work) = self.work.take() {
             // One piece of work is out at a time, so there is room.
             let _ = self.fired.push(work);
@@ -233,12 +233,12 @@ impl unripple_core::Cycle for Cycle<'_> {
     }
 }
 
-/// A closed client makes no more calls: work that it was given is handed back.
+/// A closed client is not called any more: its work is handed back.
 impl Drop for Crossing {
     fn drop(&mut self) {
         while let Ok(work) = self.hired.pop() {
             self.work = Some(work);
         }
-        self.dismiss();
+        self.remove_work();
     }
 }

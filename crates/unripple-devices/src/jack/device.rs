@@ -9,25 +9,29 @@ use crate::DevicesError;
 use std::sync::atomic::Ordering;
 use std::thread::ThreadId;
 use std::time::{Duration, Instant};
-use unripple_core::{Device, DeviceError, Layout, Server, State, Status, TEND, Work, require};
+use unripple_core::{CHECK_INTERVAL, Device, DeviceError, Layout, Server, State, Status, Work, require};
 
-/// Smallest number of frames that the rings hold, in case the server's period grows: four periods of JACK's largest, 8192 frames.
+/// Smallest number of frames for which the ring buffers have room, in case the server's period grows: four
+/// periods of JACK's largest, 8192 frames.
 const ROOM: usize = 32768;
 
-/// Longest wait for a block before looking again: a server that is gone wakes nobody.
+/// Longest wait for a block before checking again: a server that is gone wakes nobody.
 const NAP: Duration = Duration::from_millis(100);
 
-/// A JACK server as a device. Its block is the one asked for, or the server's period as it was when it was opened.
+/// A JACK server as a device. Its block size is the one requested, or the server's period at the time of
+/// opening.
 ///
-/// [`Work`] that is given to [`Device::employ`] is called in the server's own cycle, whatever the period is at the moment. Otherwise
-/// blocks are exchanged by [`Device::exchange`] through a ring in which `lead` of them wait, more where the period is longer than they
-/// are. The period need not be a multiple of the block, nor the block one of it. If the period grows meanwhile, more blocks wait from
+/// [`Work`] that is passed to [`Device::install_work`] is called in the server's own cycle, whatever the period is
+/// at the moment. Otherwise blocks are exchanged by [`Device::exchange`] through a ring buffer in which
+/// `lead` of them wait, or more if the period is longer than they are. The period need not be a multiple of
+/// the block, nor the block a multiple of the period. If the period grows meanwhile, more blocks wait from
 /// then on, and each of these counts as a lost block.
 ///
-/// In real time the server's thread neither waits nor allocates: where drive is late, it plays silence, records nothing, and counts
-/// the missed block. Missed blocks, those of a pause between exchanges included, are in [`Status::lost`] as soon as the first block
-/// after them is recorded. Before a measurement let some blocks of silence pass, and compare `lost` after them with `lost` at its
-/// end. A server that freewheels waits for drive instead, two seconds at most.
+/// In real time the server's thread neither waits nor allocates: if drive is late, it plays silence, records
+/// nothing, and counts the missed block. Missed blocks, those of a pause between exchanges included, are in
+/// [`Status::lost`] as soon as the first block after them is recorded. Before a measurement let some blocks
+/// of silence pass, and compare `lost` after them with `lost` at its end. A server that freewheels waits for
+/// drive instead, two seconds at most.
 ///
 /// ```no_run
 /// use unripple_core::Device;
@@ -53,7 +57,7 @@ pub struct Jack {
     xruns: u64,
     /// The thread that was last registered as waiting for blocks, and whether the server has work to call.
     waiter: Option<ThreadId>,
-    employs: bool,
+    has_work: bool,
     watch: Watch,
     frames: Vec<f32>,
     status: Status,
@@ -69,7 +73,7 @@ impl std::fmt::Debug for Jack {
 }
 
 impl Jack {
-    /// Joins a server, with ports connected.
+    /// Joins a JACK server as a client, and connects the client's ports.
     ///
     /// # Errors
     /// [`DevicesError::Jack`] if there is no library or server, or it refuses a port or a connection; [`DevicesError::Channels`] for
@@ -123,7 +127,7 @@ impl Jack {
             owed: 0,
             xruns: 0,
             waiter: None,
-            employs: false,
+            has_work: false,
             watch: Watch::new(0),
             frames,
             status,
@@ -133,7 +137,7 @@ impl Jack {
         Ok(jack)
     }
 
-    /// Asks the server for its latencies.
+    /// Reads the latencies from the server.
     fn ask(&mut self) {
         if let Some(server) = &mut self.status.server
             && !self.client.closed()
@@ -142,9 +146,10 @@ impl Jack {
         }
     }
 
-    /// Blocks that must be under way so that every cycle finds its drive: those asked for, or two cycles' worth. While one more is
-    /// waited for, less than a block of what came back is still here, so all of these are ahead of the server: one cycle takes its
-    /// drive, and the program has until the next to send more.
+    /// Number of blocks that must be under way so that every cycle finds its drive: the number requested, or
+    /// that of two cycles if it is larger. While one more is waited for, less than a block of answers is
+    /// still here, so that all of these are ahead of the server: one cycle reads its drive, and the program
+    /// has until the next to send more.
     fn needed(&self) -> u64 {
         let (block, period) = (self.layout.block, self.client.events.period.load(Ordering::Acquire));
         if period <= block { self.lead } else { self.lead.max((2 * period).div_ceil(block) as u64) }
@@ -159,7 +164,7 @@ impl Jack {
         }
     }
 
-    /// Cycles that came late since the last look, unless the server runs without a clock.
+    /// Number of cycles that came late since the last check; 0 if the server runs without a clock.
     fn late(&mut self) -> u64 {
         let xruns = self.client.events.xruns.load(Ordering::Relaxed);
         let late = xruns - std::mem::replace(&mut self.xruns, xruns);
@@ -185,7 +190,7 @@ impl Jack {
         Ok(())
     }
 
-    /// Waits for one block and takes it; `false` if none can come before more drive is sent.
+    /// Waits for one recorded block and reads it; `false` if none can come before more drive is sent.
     fn pop(&mut self, heard: &mut [f32]) -> Result<bool, DeviceError> {
         let (block, inputs) = (self.layout.block, self.layout.inputs.len());
         let wanted = block * (inputs + 1);
@@ -235,7 +240,7 @@ impl Jack {
         match self.pop(heard) {
             Ok(true) => Ok(()),
             Ok(false) => {
-                // The period has grown: all is later from now on.
+                // The period has grown: all later blocks come later by one.
                 self.lead += 1;
                 self.status.lost += 1;
                 heard.fill(0.0);
@@ -272,13 +277,13 @@ impl Device for Jack {
             server.skipped = events.skipped.load(Ordering::Relaxed);
             server.own_late = events.own_late.load(Ordering::Relaxed);
         }
-        status.waiting = if self.employs { 0 } else { self.lead * self.layout.block as u64 };
+        status.waiting = if self.has_work { 0 } else { self.lead * self.layout.block as u64 };
         status
     }
 
     fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
         self.layout.fits(drive.len(), heard.len())?;
-        // Answers that came too late once are discarded, so that latency stays what it is.
+        // Answers that came too late once are discarded, so that latency does not change.
         while self.owed > 0 && self.pop(heard)? {
             self.owed -= 1;
         }
@@ -293,20 +298,20 @@ impl Device for Jack {
         Ok(())
     }
 
-    fn employ(&mut self, work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
-        self.shore.dismissing.store(false, Ordering::Release);
+    fn install_work(&mut self, work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
+        self.shore.removing.store(false, Ordering::Release);
         self.shore.hired.push(work).map_err(|rtrb::PushError::Full(work)| work)?;
-        self.employs = true;
+        self.has_work = true;
         self.late();
         self.watch = Watch::new(self.client.events.cycles.load(Ordering::Acquire));
         Ok(())
     }
 
-    fn dismiss(&mut self) -> Option<Box<dyn Work>> {
-        if !std::mem::take(&mut self.employs) {
+    fn remove_work(&mut self) -> Option<Box<dyn Work>> {
+        if !std::mem::take(&mut self.has_work) {
             return None;
         }
-        self.shore.dismissing.store(true, Ordering::Release);
+        self.shore.removing.store(true, Ordering::Release);
         // A server that was seen to stand still before is not waited for again.
         let last = self.watch.last(self.client.events.cycles.load(Ordering::Acquire));
         while self.shore.fired.is_empty() && last.elapsed() < self.patience {
@@ -323,7 +328,7 @@ impl Device for Jack {
         self.shore.fired.pop().ok()
     }
 
-    fn tend(&mut self) -> Result<Duration, DeviceError> {
+    fn check(&mut self) -> Result<Duration, DeviceError> {
         if self.client.events.gone.load(Ordering::Acquire) {
             let (device, why) = (self.layout.device.clone(), "the server shut down".to_owned());
             return Err(DeviceError::Lost { device, why });
@@ -347,7 +352,7 @@ impl Device for Jack {
             }
         }
         self.ask();
-        Ok(TEND)
+        Ok(CHECK_INTERVAL)
     }
 }
 

@@ -1,4 +1,4 @@
-//! A handle on a virtual surface: moves the probe, taps, puts fingers down.
+//! A handle for manipulating a virtual surface: moves the probe, taps, puts fingers down.
 
 use super::workings::{Workings, lock};
 use crate::{DevicesError, Tap};
@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex};
 use unripple_core::{Contact, Point, require};
 use unripple_physics::stepper::{FingerMotion, History, Plant};
 
-/// A handle on a virtual surface, for use while another part of the program has its device: moves the probe, taps, and puts fingers
-/// on it. Its calls take effect with the next block.
+/// A handle for manipulating a virtual surface while another part of the program owns its device: moves the
+/// probe, taps, and puts fingers on the surface. Its calls take effect with the next block.
 #[derive(Clone, Debug)]
 pub struct Handle {
     workings: Arc<Mutex<Workings>>,
@@ -18,18 +18,18 @@ impl Handle {
         Self { workings }
     }
 
-    /// Number of samples that the surface has been driven with.
+    /// Number of samples that have been simulated since the start or the last [`Handle::rest`].
     pub fn samples(&self) -> u64 {
         lock(&self.workings).surface.surface().samples()
     }
 
-    /// Resets the surface: at rest as it was made, at time 0, without taps or fingers, the probe at its first place. The noise of the
-    /// interface is another for each seed and the same for one.
+    /// Resets the surface to its initial state: at rest, at time 0, without taps or fingers, the probe at
+    /// its initial place. The noise of the interface restarts; equal seeds give equal noise.
     pub fn rest(&self, seed: u64) {
         lock(&self.workings).rest(seed);
     }
 
-    /// Puts the probe at another place, in metres.
+    /// Moves the probe to another place, in metres.
     ///
     /// # Errors
     /// [`DevicesError::Physics`] for a place that is not finite.
@@ -37,8 +37,9 @@ impl Handle {
         lock(&self.workings).move_probe(at)
     }
 
-    /// Watches displacement (m) at some places instead of any before, every `stride`-th sample from the next block on;
-    /// [`Handle::watched`] returns it. It has neither noise nor latency.
+    /// Records the displacement (m) at these places, and no longer at earlier ones, at every `stride`-th
+    /// sample from the next block on; [`Handle::watched`] returns the recording, which has neither noise nor
+    /// latency.
     ///
     /// # Errors
     /// [`DevicesError::Physics`] for a place that is not finite.
@@ -46,8 +47,8 @@ impl Handle {
         lock(&self.workings).watch(places, stride)
     }
 
-    /// Moves the watched places (in m), as many as there are: their traces go on, and places that stay cost nothing. A move takes
-    /// effect at the next block.
+    /// Moves the places at which displacement is recorded (in m), without changing their number: the
+    /// recordings continue, and unchanged places cost nothing. A move takes effect at the next block.
     ///
     /// # Errors
     /// [`DevicesError::Range`] for another number of places, [`DevicesError::Physics`] for one that is not finite; nothing has moved
@@ -59,14 +60,14 @@ impl Handle {
         workings.move_watched(places)
     }
 
-    /// Displacement (m) watched since this was last called, one trace for each place; the newest 65536 samples at
-    /// most.
+    /// Returns the displacement (m) recorded since the last call, one trace for each place, and at most the
+    /// newest 65536 samples.
     pub fn watched(&self) -> Vec<Vec<f32>> {
         lock(&self.workings).watch.take()
     }
 
-    /// Records from now on the state of all modes after every `stride`-th sample, and keeps the newest `states` of them;
-    /// [`Handle::history`] reads them. [`Handle::rest`] discards them.
+    /// Starts recording the state of all modes after every `stride`-th sample, of which the newest `states`
+    /// are stored; [`Handle::history`] reads them, [`Handle::rest`] discards them.
     ///
     /// # Errors
     /// [`DevicesError::Physics`], as [`remember`](unripple_physics::VirtualSurface::remember).
@@ -74,7 +75,8 @@ impl Handle {
         Ok(lock(&self.workings).surface.surface_mut().remember(stride, states)?)
     }
 
-    /// Calls `look` with the recorded states, while the surface waits; `None` if nothing is recorded.
+    /// Calls `look` with the states recorded by [`Handle::remember`], while the simulation waits; `None` if
+    /// nothing is recorded.
     pub fn history<R>(&self, look: impl FnOnce(&History) -> R) -> Option<R> {
         lock(&self.workings).surface.surface().history().map(look)
     }
@@ -84,8 +86,8 @@ impl Handle {
         lock(&self.workings).surface.surface().plant().clone()
     }
 
-    /// Taps at a place (m); the force begins `after` seconds after the start of the next block. It acts like that of an actuator, on
-    /// the sheet with all its loads.
+    /// Taps at a place (m); the force begins `after` seconds after the start of the next block. The force
+    /// acts like that of an actuator, on the sheet with all its loads.
     ///
     /// # Errors
     /// [`DevicesError::Taps`] if more taps would fall into one block than the device was made for, [`DevicesError::Range`]
@@ -94,12 +96,13 @@ impl Handle {
         require("time until a tap in s", (0.0..=86_400.0).contains(&after), "between 0 and 86400", after)?;
         let mut workings = lock(&self.workings);
         let surface = workings.surface.surface();
-        let footing = surface.plant().footing(at, 0.0)?;
+        let contact_weights = surface.plant().contact_weights(at, 0.0)?;
         let start = surface.samples() + (after * surface.rate()).round() as u64;
-        workings.add(start, tap.force().to_vec(), footing)
+        workings.add(start, tap.force().to_vec(), contact_weights)
     }
 
-    /// Puts a finger down, known as `id` from now on; `contact` says where (m) and how it presses.
+    /// Puts a finger with the number `id` on the surface; `contact` specifies its place (m) and its
+    /// mechanical load.
     ///
     /// # Errors
     /// [`DevicesError::Physics`], as [`touch`](unripple_physics::VirtualSurface::touch).
@@ -107,7 +110,7 @@ impl Handle {
         Ok(lock(&self.workings).surface.surface_mut().touch(id, contact)?)
     }
 
-    /// Moves a finger to a place in metres.
+    /// Moves the finger with the number `id` to a place, in metres.
     ///
     /// # Errors
     /// [`DevicesError::Physics`], as [`move_to`](unripple_physics::VirtualSurface::move_to).
@@ -115,7 +118,7 @@ impl Handle {
         Ok(lock(&self.workings).surface.surface_mut().move_to(id, to)?)
     }
 
-    /// Lifts the finger of this number.
+    /// Lifts the finger with the number `id`.
     ///
     /// # Errors
     /// [`DevicesError::Physics`], as [`lift`](unripple_physics::VirtualSurface::lift).
@@ -123,7 +126,8 @@ impl Handle {
         Ok(lock(&self.workings).surface.surface_mut().lift(id)?)
     }
 
-    /// Displacement, velocity and force of a finger, in m, m/s and N; `None` for one that is not down.
+    /// Displacement, velocity and force of the finger with the number `id`, in m, m/s and N; `None` if it is
+    /// not on the surface.
     pub fn finger_motion(&self, id: u64) -> Option<FingerMotion> {
         lock(&self.workings).surface.surface().finger_motion(id)
     }

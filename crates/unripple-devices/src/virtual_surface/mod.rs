@@ -1,4 +1,4 @@
-//! The virtual surface as a device: simulated in time, block by block.
+//! The virtual surface as a device: simulated in the time domain, block by block.
 
 mod feeler;
 mod handle;
@@ -15,7 +15,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use unripple_core::{Device, DeviceError, Layout, PROBE, Point, State, Status, Surface, require};
 use unripple_physics::stepper::{
-    Channel, InjectedFaults, Misbehaving, Plant, Reading, StepperOptions, VirtualSurface,
+    Channel, FaultySurface, InjectedFaults, Plant, Reading, StepperOptions, VirtualSurface,
 };
 use unripple_physics::{Accuracy, Footprint, Modes, stepped_hz};
 use workings::{Workings, lock};
@@ -25,22 +25,25 @@ use workings::{Workings, lock};
 pub struct VirtualOptions {
     /// Samples per block.
     pub block: usize,
-    /// How the surface is stepped, and how many fingers there may be.
+    /// Options of the simulation in the time domain, among them the largest number of fingers.
     pub stepper: StepperOptions,
     /// Faults of the surface, its sensors and its wires.
     pub faults: InjectedFaults,
     /// Converters and amplifiers between program and surface.
     pub interface: Interface,
-    /// Place of the probe at first, in m; in the middle of the outline's bounding box where `None`.
+    /// Initial place of the probe, in m; the middle of the outline's bounding box if `None`.
     pub probe: Option<Point>,
-    /// Highest frequency of the modes, in Hz. `None` stands for the top of the band, or for 1.5 times that (up to 0.45 of the sample
-    /// rate) where coils or masses load the surface, since they couple to modes above the band.
+    /// Highest frequency of the modes, in Hz. `None` means the top of the band, or 1.5 times that (up to
+    /// 0.45 of the sample rate) if coils or masses load the surface, since they couple to modes above the
+    /// band.
     pub max_hz: Option<f64>,
-    /// Relative accuracy of the modes' natural frequencies, and the largest error that is accepted where it is out of reach.
+    /// Relative accuracy of the modes' natural frequencies, and the largest error that is accepted if that
+    /// accuracy cannot be reached.
     pub accuracy: Accuracy,
-    /// Largest number of taps at once.
+    /// Largest number of simultaneous taps.
     pub taps: usize,
-    /// Whether a block takes as long as it lasts. Otherwise a block passes as fast as it can be computed.
+    /// Whether each exchange of a block takes the block's duration in real time; otherwise it is as fast as
+    /// the computation.
     pub real_time: bool,
 }
 
@@ -65,8 +68,8 @@ impl Default for VirtualOptions {
 const FINE: usize = 3;
 
 impl VirtualOptions {
-    /// The defaults for a surface that is to be measured: where coils or masses load it, steps of a third of a sample, so that
-    /// nothing is late or early by more than a few hundredths of one.
+    /// Default options for a surface that is to be measured: if coils or masses load it, with steps of a
+    /// third of a sample, so that no signal is late or early by more than a few hundredths of a sample.
     ///
     /// # Errors
     /// [`DevicesError::Physics`] for actuators that are not valid.
@@ -78,12 +81,13 @@ impl VirtualOptions {
     }
 }
 
-/// A virtual surface as a device, microphone included.
+/// A simulated surface as a device, with actuators, their sensors and a probe.
 ///
-/// An output for each actuator, by its name; an input for the sensor of each, by the same names, then [`PROBE`], the normal velocity
-/// (m/s) at a place that can be moved. A sample of 1 drives with the surface's emission limit. The signal of an actuator's sensor
-/// comes from the motion alone, in its own unit ([`Sensor`](unripple_physics::Sensor)): m/s for an ideal force, V for a coil driven
-/// by a current, A for one driven by a voltage and for a patch. Time passes only in [`Device::exchange`].
+/// There is an output for each actuator, by its name; an input for the sensor of each, by the same names;
+/// then the input [`PROBE`], the normal velocity (m/s) at a place that can be moved. A sample of 1 is a
+/// drive at the surface's emission limit. The signal of an actuator's sensor is that of the motion alone, in
+/// the sensor's unit ([`Sensor`](unripple_physics::Sensor)): m/s for an ideal force, V for a coil driven by
+/// a current, A for one driven by a voltage and for a patch. Time passes only in [`Device::exchange`].
 ///
 /// ```
 /// use unripple_core::*;
@@ -116,7 +120,7 @@ pub struct Virtual {
 }
 
 impl Virtual {
-    /// A surface at rest, whose modes are solved here.
+    /// A virtual surface at rest; this call computes its modes.
     ///
     /// # Errors
     /// Those of [`Modes::solve`] and [`Virtual::with_modes`].
@@ -125,7 +129,7 @@ impl Virtual {
         Self::with_modes(surface, Arc::new(modes), options)
     }
 
-    /// A surface at rest, with modes that were solved before.
+    /// A virtual surface at rest, with modes that were computed before.
     ///
     /// # Errors
     /// [`DevicesError::Range`] and [`DevicesError::Size`] for values out of range; those of [`VirtualSurface::new`].
@@ -137,7 +141,7 @@ impl Virtual {
         let (block, taps) = (options.block as f64, options.taps as f64);
         require("samples of a block", (1.0..=1e6).contains(&block), "between 1 and 1000000", block)?;
         require("taps at once", taps <= 64.0, "at most 64", taps)?;
-        let plant = Plant::bearing(surface, modes, surface.emission.rate)?;
+        let plant = Plant::with_residual_compliance(surface, modes, surface.emission.rate)?;
         let (width, height) = surface.outline.extent();
         let place = options.probe.unwrap_or(Point::new(width / 2.0, height / 2.0));
         let mut channels = Channel::all(surface)?;
@@ -146,7 +150,7 @@ impl Virtual {
         let mut stepped = VirtualSurface::new(&plant, &channels, surface.emission.rate, &options.stepper)?;
         stepped.set_probes(&[(place, Reading::Velocity)])?;
         let faults = options.faults.clone();
-        let surface_at_work = Misbehaving::new(stepped, faults, options.block)?.with_spare(options.taps)?;
+        let surface_at_work = FaultySurface::new(stepped, faults, options.block)?.with_spare(options.taps)?;
         let names: Vec<String> = surface.actuators.iter().map(|a| a.name.clone()).collect();
         let layout = Layout {
             device: "virtual".into(),
@@ -167,8 +171,9 @@ impl Virtual {
         })
     }
 
-    /// A device with the true surface, its gains and its noise, besides the faults, the latency and the loss of the device that the
-    /// options ask for. Its modes are those of [`Truth::modes`], whatever accuracy the options ask for.
+    /// A virtual device that simulates the true surface of a [`Truth`] with its gains and noise, in addition
+    /// to the faults and the interface of the options. Its modes are those of [`Truth::modes`], whatever
+    /// accuracy the options request.
     ///
     /// # Errors
     /// Those of [`Virtual::new`].
@@ -176,7 +181,8 @@ impl Virtual {
         Self::of_truth_with_modes(truth, truth.modes(options.max_hz)?, options)
     }
 
-    /// As [`Virtual::of_truth`], with modes that were solved before.
+    /// A virtual device that simulates a true surface as [`Virtual::of_truth`] does, with modes that were
+    /// computed before.
     ///
     /// # Errors
     /// Those of [`Virtual::with_modes`].
@@ -189,12 +195,13 @@ impl Virtual {
         Self::with_modes(&truth.surface, modes, &VirtualOptions { interface, ..options.clone() })
     }
 
-    /// A handle on the surface, for use while another part of the program has the device.
+    /// A handle for manipulating the surface (probe, taps, fingers) while another part of the program owns
+    /// the device.
     pub fn handle(&self) -> Handle {
         Handle::new(self.workings.clone())
     }
 
-    /// Waits until this block would be over.
+    /// Waits until this block would end in real time.
     fn keep_time(&mut self) {
         let start = *self.start.get_or_insert_with(Instant::now);
         let over = (self.status.blocks + 1) as f64 * self.layout.block as f64 / self.layout.rate;

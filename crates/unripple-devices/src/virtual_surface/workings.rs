@@ -1,22 +1,22 @@
-//! The parts of a virtual device: stepper, taps, converters.
+//! The parts of a virtual device: simulation, taps, converters.
 
 use super::watch::{self, Watch};
 use crate::DevicesError;
 use crate::interface::Converter;
 use std::sync::{Mutex, MutexGuard};
 use unripple_core::{Layout, Point};
-use unripple_physics::stepper::{Footing, Misbehaving};
+use unripple_physics::stepper::{ContactWeights, FaultySurface};
 
 /// The parts of a virtual device.
 #[derive(Debug)]
 pub(super) struct Workings {
-    pub(super) surface: Misbehaving,
+    pub(super) surface: FaultySurface,
     pub(super) watch: Watch,
-    /// Where the probe is at first.
+    /// Initial place of the probe.
     first_probe: Point,
     converter: Converter,
-    /// Surface and converter as they were at first.
-    first: (Misbehaving, Converter),
+    /// Initial state of surface and converter.
+    first: (FaultySurface, Converter),
     block: usize,
     outputs: usize,
     slots: Vec<Slot>,
@@ -28,7 +28,7 @@ pub(super) struct Workings {
     heard: Vec<f64>,
 }
 
-/// A spare channel for taps one after the other.
+/// A spare channel of the simulation, for taps that do not overlap in time.
 #[derive(Clone, Debug, Default)]
 struct Slot {
     /// Taps under way or to come, by their start.
@@ -40,8 +40,8 @@ struct Slot {
 struct Strike {
     start: u64,
     force: Vec<f64>,
-    footing: Footing,
-    seated: bool,
+    contact_weights: ContactWeights,
+    placed: bool,
 }
 
 impl Strike {
@@ -52,7 +52,7 @@ impl Strike {
 
 impl Workings {
     pub(super) fn new(
-        surface: Misbehaving,
+        surface: FaultySurface,
         converter: Converter,
         layout: &Layout,
         taps: usize,
@@ -79,7 +79,7 @@ impl Workings {
         }
     }
 
-    /// Resets surface and interface, with noise of its own for each seed.
+    /// Resets surface and interface; equal seeds give equal noise.
     pub(super) fn rest(&mut self, seed: u64) {
         (self.surface, self.converter) = self.first.clone();
         self.converter.reseed(seed);
@@ -95,7 +95,7 @@ impl Workings {
         Ok(())
     }
 
-    /// Watches the sheet at some places instead of any before, every `stride`-th sample.
+    /// Records the displacement at these places, and no longer at earlier ones, at every `stride`-th sample.
     pub(super) fn watch(&mut self, places: &[Point], stride: usize) -> Result<(), DevicesError> {
         let probe = self.watch.probe();
         let watch = Watch::new(places, stride, probe);
@@ -106,7 +106,7 @@ impl Workings {
         Ok(())
     }
 
-    /// Watches at other places, as many. Those that stay cost nothing.
+    /// Moves the recorded places without changing their number. Unchanged places cost nothing.
     pub(super) fn move_watched(&mut self, places: &[Point]) -> Result<(), DevicesError> {
         self.surface.surface_mut().move_probes(&self.watch.moves(places))?;
         self.watch.set_places(places);
@@ -118,7 +118,8 @@ impl Workings {
         self.surface.lost() as u64
     }
 
-    /// Passes one block through converters, faults and surface; an error says why no more blocks pass.
+    /// Passes one block through converters, faults and surface; an error is the reason why no more blocks
+    /// can pass.
     pub(super) fn exchange(
         &mut self,
         layout: &Layout,
@@ -156,9 +157,9 @@ impl Workings {
             plane.fill(0.0);
             slot.strikes.retain(|strike| strike.end() > now);
             let Some(strike) = slot.strikes.first_mut().filter(|s| s.start < now + block) else { continue };
-            if !strike.seated {
-                self.surface.surface_mut().seat(self.outputs + index, &strike.footing)?;
-                strike.seated = true;
+            if !strike.placed {
+                self.surface.surface_mut().move_channel(self.outputs + index, &strike.contact_weights)?;
+                strike.placed = true;
             }
             for (i, to) in plane.iter_mut().enumerate() {
                 let from = (now + i as u64).checked_sub(strike.start);
@@ -168,9 +169,14 @@ impl Workings {
         Ok(())
     }
 
-    /// Puts a tap on a slot that has room for it, from a sample on.
-    pub(super) fn add(&mut self, start: u64, force: Vec<f64>, footing: Footing) -> Result<(), DevicesError> {
-        let strike = Strike { start, force, footing, seated: false };
+    /// Adds a tap that starts at a sample to a slot that is free at that time.
+    pub(super) fn add(
+        &mut self,
+        start: u64,
+        force: Vec<f64>,
+        contact_weights: ContactWeights,
+    ) -> Result<(), DevicesError> {
+        let strike = Strike { start, force, contact_weights, placed: false };
         let block = self.block as u64;
         // A slot has one place within a block.
         let span = |s: &Strike| s.start / block..=s.end() / block;

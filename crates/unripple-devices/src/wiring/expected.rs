@@ -1,11 +1,11 @@
-//! Responses from each output to each input, as a model predicts them.
+//! Responses from each output to each input, predicted by a model.
 
 use crate::DevicesError;
 use crate::error::same;
 use unripple_core::{ModalResponses, Point, Surface, require};
 use unripple_physics::{Sensor, sensed, sensors};
 
-/// The impulse response that a model gives from each output to each input.
+/// The impulse responses from each output to each input that a model predicts.
 ///
 /// ```
 /// use unripple_devices::Expected;
@@ -24,7 +24,8 @@ pub struct Expected {
 }
 
 impl Expected {
-    /// Responses `[output][input][sample]`, each per unit impulse of drive in the actuator's own unit.
+    /// Expected responses from the values `[output][input][sample]`, each per unit impulse of drive in the
+    /// actuator's unit.
     ///
     /// # Errors
     /// [`DevicesError::Size`] unless all rows are equally long, [`DevicesError::Range`] for a value that is not finite.
@@ -44,8 +45,8 @@ impl Expected {
         Ok(Self { outputs, inputs, samples, data: responses.concat().concat() })
     }
 
-    /// The response of each actuator as a sensor, in the unit of its kind ([`Sensor`]), then the velocity (m/s) at a probe if there
-    /// is one, for `duration` seconds.
+    /// Expected responses of a surface's actuators as sensors, in the unit of each [`Sensor`], and of the
+    /// velocity (m/s) at a probe, if there is one, as the last input, for `duration` seconds.
     ///
     /// # Errors
     /// [`DevicesError::Physics`] for actuators that are not valid, [`DevicesError::Size`] if the responses have another number of
@@ -63,7 +64,8 @@ impl Expected {
         Ok(Self::heard(responses, heard, &sensors, probe, duration))
     }
 
-    /// As [`Expected::of`], for actuators whose sensors weight the velocity as their drives weight the force, such as ideal forces.
+    /// Expected responses as of [`Expected::of`], for actuators whose sensors have the mode weights of their
+    /// drives, such as ideal forces; `duration` is in s.
     pub fn of_modes(responses: &ModalResponses, probe: Option<Point>, duration: f64) -> Self {
         let input = &responses.input;
         let heard = (0..input.nrows()).map(|a| input.row(a).iter().copied().collect()).collect();
@@ -98,7 +100,7 @@ impl Expected {
         }
         for (pair, response) in data.chunks_exact_mut(samples.max(1)).enumerate() {
             if let Some(sensor) = sensors.get(pair % inputs) {
-                response.copy_from_slice(&sensor.hear(response, conditions.rate));
+                response.copy_from_slice(&sensor.signal(response, conditions.rate));
             }
         }
         Self { outputs, inputs, samples, data }
@@ -119,8 +121,8 @@ impl Expected {
         self.samples
     }
 
-    /// Impulse response from an output to an input, a value per sample in the input's unit per unit of drive and
-    /// second; empty beyond them.
+    /// Impulse response from an output to an input, one value per sample in the input's unit per unit of
+    /// drive and second; empty for an index beyond the last output.
     pub fn response(&self, output: usize, input: usize) -> &[f64] {
         let start = (output * self.inputs + input) * self.samples;
         self.data.get(start..start + self.samples).unwrap_or(&[])

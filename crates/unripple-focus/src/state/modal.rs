@@ -35,7 +35,7 @@ impl<'r> ModalPlant<'r> {
     ///
     /// # Errors
     /// [`FocusError::Count`] for too many samples of too many modes.
-    pub fn once(
+    pub fn single(
         responses: &'r ModalResponses,
         length: usize,
         stretch: f64,
@@ -60,7 +60,7 @@ impl<'r> ModalPlant<'r> {
     ///
     /// # Errors
     /// [`FocusError::Count`] if a mode never becomes steady, and for too many samples of too many modes.
-    pub fn again(responses: &'r ModalResponses, length: usize, stretch: f64) -> Result<Self, FocusError> {
+    pub fn periodic(responses: &'r ModalResponses, length: usize, stretch: f64) -> Result<Self, FocusError> {
         Ok(Self { responses, table: steady(responses, length, stretch)?, synth: None })
     }
 

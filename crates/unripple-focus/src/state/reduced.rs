@@ -26,7 +26,7 @@ pub(crate) struct ReducedPlant<'r> {
 
 impl<'r> ReducedPlant<'r> {
     /// A model for drives of one window of `length` samples, whose last sample is the focal instant, or with
-    /// `again` for periodic drives with a period of `length` samples.
+    /// `periodic` for periodic drives with a period of `length` samples.
     ///
     /// # Errors
     /// [`FocusError::Decomposition`]; [`FocusError::Count`] if an oscillation never becomes steady, and for too many samples or
@@ -35,7 +35,7 @@ impl<'r> ReducedPlant<'r> {
         responses: &'r ModalResponses,
         length: usize,
         stretch: f64,
-        again: bool,
+        periodic: bool,
     ) -> Result<Self, FocusError> {
         let (cells, modes) = (lattice(responses), responses.poles.len());
         fits("samples of the window or period times modes", length, modes)?;
@@ -49,7 +49,7 @@ impl<'r> ReducedPlant<'r> {
         let basis = vectors.subcols(first, count - first).to_owned();
         let channels = responses.ports.len();
         fits("samples of all channels times modes", channels * length, basis.ncols())?;
-        let ringing = match again {
+        let ringing = match periodic {
             true => steady(responses, length, stretch)?,
             false => ringing(responses, length, stretch),
         };

@@ -24,7 +24,7 @@ impl<'r> SampledPlant<'r> {
     ///
     /// # Errors
     /// [`FocusError::Count`] if the responses are shorter, or too many.
-    pub fn once(responses: &'r SampledResponses, length: usize) -> Result<Self, FocusError> {
+    pub fn single(responses: &'r SampledResponses, length: usize) -> Result<Self, FocusError> {
         SampledRecorder::new(responses, length)?;
         let (channels, points) = (responses.ports.len(), responses.points.len());
         let found = channels.saturating_mul(length).saturating_mul(points);

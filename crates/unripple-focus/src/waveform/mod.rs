@@ -28,7 +28,7 @@ pub struct Played {
     pub starts: Vec<usize>,
     /// Motion prescribed at each target, from the drive's first sample to its last (targets x samples, in the unit of
     /// the waveforms): the waveform within the band, times `scale`.
-    pub asked: Vec<Vec<f64>>,
+    pub prescribed: Vec<Vec<f64>>,
     /// Share of each waveform's energy, 0 to 1, that lies outside the band and is left out.
     pub lost: Vec<f64>,
     /// Factor by which the limits reduced all waveforms; 1 where no limit was reached.
@@ -79,7 +79,7 @@ pub fn play(
     Ok(Played {
         drive,
         starts: plan.starts.clone(),
-        asked: asked.signals(&plan, scale),
+        prescribed: asked.signals(&plan, scale),
         lost: asked.lost,
         scale,
         points: points.to_vec(),

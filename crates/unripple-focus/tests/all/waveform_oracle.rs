@@ -52,8 +52,8 @@ fn a_target_follows_while_another_point_is_still() {
         assert!(played.lost[0] < 1e-3, "{}", played.lost[0]);
         // 200 ms, ten decay times, beyond the drive.
         let found = displacement(&modal, &played.drive, A, played.drive.samples() + 2400);
-        let asked = energy(played.asked[0].iter().copied());
-        let error = found.iter().enumerate().map(|(i, u)| u - played.asked[0].get(i).unwrap_or(&0.0));
+        let asked = energy(played.prescribed[0].iter().copied());
+        let error = found.iter().enumerate().map(|(i, u)| u - played.prescribed[0].get(i).unwrap_or(&0.0));
         let error = 10.0 * (energy(error) / asked).log10();
         let silence = energy(displacement(&modal, &played.drive, B, found.len())) / asked;
         println!("error {error:.1} dB, silence {:.1} dB", 10.0 * silence.log10());
@@ -120,7 +120,7 @@ fn limits_scale_the_whole() {
     let limit = free.drive.peak() / 4.0;
     let held = play(&responses, &waves(1e-6), &[B], &PlayOptions { limit, ..loud() }).unwrap();
     assert!((held.scale - 0.25).abs() < 1e-12 && (held.drive.peak() / limit - 1.0).abs() < 1e-12);
-    assert!(held.asked[0].iter().zip(&free.asked[0]).all(|(a, b)| (a - b / 4.0).abs() < 1e-18));
+    assert!(held.prescribed[0].iter().zip(&free.prescribed[0]).all(|(a, b)| (a - b / 4.0).abs() < 1e-18));
     let quiet = PlayOptions { rms_limit: Some(1e-4 * limit), limit, ..loud() };
     let quiet = play(&responses, &waves(1e-6), &[], &quiet).unwrap();
     let rms = quiet.drive.channels().iter().map(|c| (energy(c.iter().copied()) / c.len() as f64).sqrt());

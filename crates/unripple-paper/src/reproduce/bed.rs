@@ -6,7 +6,7 @@ use unripple_tasks::judge;
 
 /// The paper's surface with its responses, on which its experiments are simulated.
 #[derive(Debug)]
-pub struct Bed {
+pub struct PaperSetup {
     /// The film of the paper's section 4, with eight ideal force actuators.
     pub surface: Surface,
     /// Responses of the film, mode by mode, in the band.
@@ -19,7 +19,7 @@ pub struct Bed {
     pub target: Point,
 }
 
-impl Bed {
+impl PaperSetup {
     /// The built-in surface `hudin-2012` with its responses, the paper's window and the target of a single
     /// focus.
     pub fn new() -> Result<Self, TaskError> {

@@ -2,8 +2,8 @@
 
 use super::contrast::{Statistic, statistics};
 use super::section::row;
-use super::{Bed, Picture, Predicted, Section};
-use crate::study::{Bench, CELLS, against_window, cavities};
+use super::{PaperSetup, Picture, Predicted, Section};
+use crate::study::{CELLS, ContrastModel, against_window, cavities};
 use serde_json::json;
 use unripple::core::{Outline, Surface};
 use unripple_plot::{Axis, Figure, Ink, Layer, Line, Mark, Plot, Points};
@@ -22,11 +22,16 @@ struct Cavity {
 }
 
 impl Cavity {
-    fn of(bed: &Bed, name: &'static str, outline: Outline, placements: usize) -> Result<Self, TaskError> {
-        let surface = Surface { outline, ..bed.surface.clone() };
-        let bench = Bench::of(&surface, CELLS)?;
-        let rows = statistics(placements, |s| Ok(against_window(&bench, &surface, &WINDOWS, &ACTUATORS, s)))?;
-        Ok(Self { name, modes: bench.modes(), rows })
+    fn of(
+        setup: &PaperSetup,
+        name: &'static str,
+        outline: Outline,
+        placements: usize,
+    ) -> Result<Self, TaskError> {
+        let surface = Surface { outline, ..setup.surface.clone() };
+        let model = ContrastModel::of(&surface, CELLS)?;
+        let rows = statistics(placements, |s| Ok(against_window(&model, &surface, &WINDOWS, &ACTUATORS, s)))?;
+        Ok(Self { name, modes: model.modes(), rows })
     }
 
     fn at(&self, actuators: usize, window: f64) -> Option<&Statistic> {
@@ -39,26 +44,26 @@ impl Cavity {
 }
 
 /// Makes the part of the page on section 2: contrast on outlines of equal area, on the same film.
-pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
-    let all = cavities(bed.surface.outline.area())
+pub fn section(setup: &PaperSetup, placements: usize) -> Result<Section, TaskError> {
+    let all = cavities(setup.surface.outline.area())
         .into_iter()
-        .map(|(name, outline)| Cavity::of(bed, name, outline, placements))
+        .map(|(name, outline)| Cavity::of(setup, name, outline, placements))
         .collect::<Result<Vec<_>, _>>()?;
     let data = all.iter().map(|c| json!({ "outline": c.name, "modes": c.modes, "against_window_s": c.rows }));
     Ok(Section {
         title: "Section 2: the outline".into(),
-        text: vec![text(&all, bed.window)],
+        text: vec![text(&all, setup.window)],
         figures: vec![Picture::still(
             "outlines",
             figure(&all),
             format!(
                 "Contrast against the window for five clamped outlines of {:.0} cm², one actuator (a) and eight (b); means of \
                  {placements} placements along the rim with four targets each, bars their standard error.",
-                bed.surface.outline.area() * 1e4
+                setup.surface.outline.area() * 1e4
             ),
         )],
-        predicted: predicted(&all, bed.window),
-        table: table(&all, bed.window),
+        predicted: predicted(&all, setup.window),
+        table: table(&all, setup.window),
         data: json!({ "outlines": data.collect::<Vec<_>>() }),
         ..Section::default()
     })
@@ -169,12 +174,12 @@ mod tests {
     /// Square and rectangle, whose modes are quick to compute, with as many placements as `reproduce` takes by default.
     #[test]
     fn the_guide_has_these_contrasts() {
-        let bed = Bed::new().unwrap();
-        let quick = cavities(bed.surface.outline.area()).into_iter().take(2);
+        let setup = PaperSetup::new().unwrap();
+        let quick = cavities(setup.surface.outline.area()).into_iter().take(2);
         let placements = Ask::default().placements;
         let found: Vec<Cavity> =
-            quick.map(|(name, outline)| Cavity::of(&bed, name, outline, placements).unwrap()).collect();
-        for row in table(&found, bed.window) {
+            quick.map(|(name, outline)| Cavity::of(&setup, name, outline, placements).unwrap()).collect();
+        for row in table(&found, setup.window) {
             let line = format!("| {} |", row.join(" | "));
             assert!(GUIDE.contains(&line), "{line} is not in the guide");
         }

@@ -1,7 +1,7 @@
 //! Effect of moving-magnet coils on the focus: added mass and damping.
 
 use super::section::{row, three};
-use super::{Bed, Compared, Section};
+use super::{Compared, PaperSetup, Section};
 use crate::study::{Coiled, Coils, Credibility, coils, credibility};
 use serde_json::json;
 use unripple::core::CoilDrive;
@@ -21,11 +21,11 @@ const MAGNET_MASS: f64 = 7e-6;
 const HZ: f64 = 1000.0;
 
 /// Makes the part of the page on section 4 about real coils, driven by a current or by a voltage.
-pub fn section(bed: &Bed) -> Result<Section, TaskError> {
+pub fn section(setup: &PaperSetup) -> Result<Section, TaskError> {
     let kinds = kinds();
     let parts: Vec<Coils> = kinds.iter().map(|(_, coils)| *coils).collect();
-    let rows = coils(&bed.surface, &parts, CONTACT, (bed.target, bed.window))?;
-    let numbers = judged(bed);
+    let rows = coils(&setup.surface, &parts, CONTACT, (setup.target, setup.window))?;
+    let numbers = judged(setup);
     let named = || kinds.iter().map(|(name, _)| *name).zip(&rows);
     let data = named().map(|(name, r)| {
         json!({
@@ -46,8 +46,8 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
 }
 
 /// Numbers that show whether the printed force constant is possible.
-pub(super) fn judged(bed: &Bed) -> Credibility {
-    credibility(&Coils::papers(CoilDrive::Voltage), MAGNET, &Medium::of(&bed.surface.sheet), HZ)
+pub(super) fn judged(setup: &PaperSetup) -> Credibility {
+    credibility(&Coils::papers(CoilDrive::Voltage), MAGNET, &Medium::of(&setup.surface.sheet), HZ)
 }
 
 fn kinds() -> Vec<(&'static str, Coils)> {

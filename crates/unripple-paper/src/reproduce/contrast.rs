@@ -1,8 +1,10 @@
 //! Contrast against window, bandwidth, number of actuators and noise (the paper's tradeoffs).
 
 use super::section::row;
-use super::{Bed, Compared, Picture, Predicted, Section};
-use crate::study::{self, Bench, CELLS, Sampling, StudyError, against_band, against_noise, against_window};
+use super::{Compared, PaperSetup, Picture, Predicted, Section};
+use crate::study::{
+    self, CELLS, ContrastModel, Sampling, StudyError, against_band, against_noise, against_window,
+};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use unripple::core::{FOCAL_RADIUS, Surface};
@@ -83,21 +85,21 @@ where
 
 /// Makes the part of the page on section 3.1: contrast against window, actuators, bandwidth and noise,
 /// simulated and by closed form.
-pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
-    let surface = &bed.surface;
-    let bench = Bench::of(surface, CELLS)?;
-    let kept = (surface.actuators.len(), bed.window);
+pub fn section(setup: &PaperSetup, placements: usize) -> Result<Section, TaskError> {
+    let surface = &setup.surface;
+    let model = ContrastModel::of(surface, CELLS)?;
+    let kept = (surface.actuators.len(), setup.window);
     let top = surface.emission.band[1];
     let tops = BANDS.map(|share| share * top);
-    let cavity = Cavity::of(surface, top).counted(bench.modes() as f64);
-    let windows = statistics(placements, |s| Ok(against_window(&bench, surface, &WINDOWS, &ACTUATORS, s)))?;
-    let bands = statistics(placements, |s| against_band(&bench, surface, &tops, kept, s))?;
-    let noises = statistics(placements, |s| Ok(against_noise(&bench, surface, &NOISES, kept, s)))?;
+    let cavity = Cavity::of(surface, top).counted(model.modes() as f64);
+    let windows = statistics(placements, |s| Ok(against_window(&model, surface, &WINDOWS, &ACTUATORS, s)))?;
+    let bands = statistics(placements, |s| against_band(&model, surface, &tops, kept, s))?;
+    let noises = statistics(placements, |s| Ok(against_noise(&model, surface, &NOISES, kept, s)))?;
     let averaged =
         format!("mean of {placements} placements of the actuators along the rim, four targets each");
     Ok(Section {
         title: "Section 3.1: contrast".into(),
-        text: text(surface, bed.window),
+        text: text(surface, setup.window),
         figures: vec![
             Picture::still(
                 "contrast-window",
@@ -114,17 +116,17 @@ pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
                     "Contrast against the top of the band (a) and against noise in the transducers (b), {} actuators and \
                      {:.0} ms. Marks: simulation, {averaged}. Lines: closed form.",
                     kept.0,
-                    bed.window * 1e3
+                    setup.window * 1e3
                 ),
             ),
         ],
         compared: [
-            exponents(&windows, bed.window, bench.modes() as f64 / top),
-            vec![halving(&windows, &noises, bed.window)],
+            exponents(&windows, setup.window, model.modes() as f64 / top),
+            vec![halving(&windows, &noises, setup.window)],
         ]
         .concat(),
         predicted: departures(&windows, &bands, surface),
-        table: table(&windows, bed.window),
+        table: table(&windows, setup.window),
         data: data(&windows, &bands, &noises),
     })
 }

@@ -6,7 +6,7 @@ mod refocus;
 
 use self::recording::Recording;
 use self::refocus::{C, Refocus};
-use super::bed::Bed;
+use super::bed::PaperSetup;
 use super::fields::first;
 use super::modes::{FORCE, actuator, closed_contrast, modal};
 use super::places::named;
@@ -25,25 +25,25 @@ const ACTUATOR: usize = 0;
 
 /// Makes the part of the page on Fig. 1: records, crops, reverses and refocuses with one actuator, and
 /// compares the contrast with that of all actuators.
-pub fn section(bed: &Bed) -> Result<Section, TaskError> {
-    let modal = modal(&bed.responses)?;
+pub fn section(setup: &PaperSetup) -> Result<Section, TaskError> {
+    let modal = modal(&setup.responses)?;
     let b = actuator(modal, ACTUATOR)?;
-    let recording = Recording::make(bed, modal, b.at)?;
-    let refocus = Refocus::make(bed, modal, &b, &recording)?;
-    let all = contrast_of_all(bed)?;
-    let scene = scene(bed, &b);
+    let recording = Recording::make(setup, modal, b.at)?;
+    let refocus = Refocus::make(setup, modal, &b, &recording)?;
+    let all = contrast_of_all(setup)?;
+    let scene = scene(setup, &b);
     let figures = vec![
-        Picture::still("fig1a", recording.figure(bed, &scene), recording.caption(bed, &b)),
-        Picture::still("fig1b", refocus.figure(bed, &scene), refocus.caption(bed, &b)),
+        Picture::still("fig1a", recording.figure(setup, &scene), recording.caption(setup, &b)),
+        Picture::still("fig1b", refocus.figure(setup, &scene), refocus.caption(setup, &b)),
     ];
     Ok(Section {
         title: "Fig. 1: record, crop, reverse, refocus".into(),
         figures,
-        compared: compared(bed, modal, &recording, &refocus, all),
+        compared: compared(setup, modal, &recording, &refocus, all),
         predicted: vec![Predicted::new(
             "contrast with one actuator",
             format!("{:.1}", refocus.figures.contrast.unwrap_or(f64::NAN)),
-            format!("closed form, a mean over places: {}", form(bed, modal, 1)),
+            format!("closed form, a mean over places: {}", form(setup, modal, 1)),
         )],
         data: json!({
             "reciprocity_mismatch": refocus.mismatch,
@@ -56,22 +56,22 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
              first {:.0} ms of the recording are played backwards from B alone. Nothing but that recording goes into the \
              drive; the field it makes is computed from the drive, mode by mode. The force peaks at {:.0} mN; the displacement \
              at A then reaches {:.1} µm, the film being {:.0} µm thick.",
-            bed.window * 1e3,
+            setup.window * 1e3,
             FORCE * 1e3,
             refocus.figures.peak_displacement_m.abs() * 1e6,
-            bed.surface.sheet.thickness * 1e6
+            setup.surface.sheet.thickness * 1e6
         )],
         table: Vec::new(),
     })
 }
 
 /// The film with B, C and the focal disc of A, which is named beside its disc so that the focus stays visible.
-fn scene(bed: &Bed, b: &Port) -> Scene {
-    let mut surface = bed.surface.clone();
+fn scene(setup: &PaperSetup, b: &Port) -> Scene {
+    let mut surface = setup.surface.clone();
     surface.actuators.clear();
-    let radius = bed.responses.conditions().focal_radius();
+    let radius = setup.responses.conditions().focal_radius();
     let mut scene = Scene::new(&surface, &[], 0.0);
-    let [x, y] = [bed.target.x, bed.target.y];
+    let [x, y] = [setup.target.x, setup.target.y];
     scene.markers.extend([
         Marker { at: [b.at.x, b.at.y], symbol: Symbol::Actuator, name: "B".into() },
         Marker { at: [x, y], symbol: Symbol::Circle(radius), name: String::new() },
@@ -82,22 +82,22 @@ fn scene(bed: &Bed, b: &Port) -> Scene {
 }
 
 /// Contrast at A with every actuator.
-fn contrast_of_all(bed: &Bed) -> Result<f64, TaskError> {
-    let options = Options { window: bed.window, limit: FORCE, ..Options::default() };
-    let focused = focus(&bed.responses, &[Target::at(bed.target)], &options).map_err(TaskError::work)?;
+fn contrast_of_all(setup: &PaperSetup) -> Result<f64, TaskError> {
+    let options = Options { window: setup.window, limit: FORCE, ..Options::default() };
+    let focused = focus(&setup.responses, &[Target::at(setup.target)], &options).map_err(TaskError::work)?;
     let drive = focused.drive.as_emitted();
-    let field = Field::new(&bed.responses, &drive, CELLS).map_err(TaskError::work)?;
-    let measured = field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(TaskError::work)?;
+    let field = Field::new(&setup.responses, &drive, CELLS).map_err(TaskError::work)?;
+    let measured = field.measure(&[Aim::at(setup.target, setup.window)], None).map_err(TaskError::work)?;
     Ok(first(measured.targets)?.contrast.unwrap_or(f64::NAN))
 }
 
 /// Contrast by the closed form with `actuators` actuators, as text.
-fn form(bed: &Bed, modal: &ModalResponses, actuators: usize) -> String {
-    closed_contrast(bed, modal, actuators).map_or("-".into(), |contrast| format!("{contrast:.1}"))
+fn form(setup: &PaperSetup, modal: &ModalResponses, actuators: usize) -> String {
+    closed_contrast(setup, modal, actuators).map_or("-".into(), |contrast| format!("{contrast:.1}"))
 }
 
 fn compared(
-    bed: &Bed,
+    setup: &PaperSetup,
     modal: &ModalResponses,
     recording: &Recording,
     refocus: &Refocus,
@@ -105,7 +105,7 @@ fn compared(
 ) -> Vec<Compared> {
     let count = modal.ports.len();
     let one = refocus.figures.contrast.unwrap_or(f64::NAN);
-    let [_, noise_a, noise_c] = refocus.levels(bed);
+    let [_, noise_a, noise_c] = refocus.levels(setup);
     vec![
         Compared::new(
             "h_AB against h_BA",
@@ -126,7 +126,7 @@ fn compared(
             ),
             format!(
                 "measured from the field that the drive makes, at A, {} samples after its start",
-                recording.cropped(bed).len() - 1
+                recording.cropped(setup).len() - 1
             ),
         ),
         Compared::new(
@@ -135,7 +135,7 @@ fn compared(
             format!("{all:.1}, {:.2} times that with one", all / one),
             format!(
                 "closed form: {}; √N would be {:.2} times, with one actuator as good as another and a window too short to tell modes apart",
-                form(bed, modal, count),
+                form(setup, modal, count),
                 (count as f64).sqrt()
             ),
         ),
@@ -154,15 +154,15 @@ mod tests {
 
     #[test]
     fn one_actuator_refocuses_as_theory_says() {
-        let bed = Bed::new().unwrap();
-        let data = section(&bed).unwrap().data;
+        let setup = PaperSetup::new().unwrap();
+        let data = section(&setup).unwrap().data;
         let number = |name: &str| data[name].as_f64().unwrap();
         assert!(number("reciprocity_mismatch") < 1e-6);
         assert!((number("peak_of_equation_2") - 1.0).abs() < 1e-6);
-        let modal = modal(&bed.responses).unwrap();
+        let modal = modal(&setup.responses).unwrap();
         let one = data["one_actuator"]["contrast"].as_f64().unwrap();
         for (found, actuators) in [(one, 1), (number("contrast_all_actuators"), modal.ports.len())] {
-            let expected = closed_contrast(&bed, modal, actuators).unwrap();
+            let expected = closed_contrast(&setup, modal, actuators).unwrap();
             assert!((found / expected - 1.0).abs() < 0.25, "{actuators}: {found} against {expected}");
         }
     }

@@ -8,7 +8,7 @@ pub use triangle::triangle;
 
 use self::focus::focused;
 use self::ratio::ratio;
-use super::bed::Bed;
+use super::bed::PaperSetup;
 use super::fields::{cells, first};
 use super::modes::{FORCE, actuator, driven_at, modal};
 use super::places::place;
@@ -48,26 +48,26 @@ struct Alone {
 }
 
 impl Alone {
-    /// Focuses on the bed's target through a surface with decay `factor` times as long, and follows the tail.
-    fn make(bed: &Bed, modal: &ModalResponses, factor: f64) -> Result<Self, TaskError> {
+    /// Focuses on the setup's target through a surface with decay `factor` times as long, and follows the tail.
+    fn make(setup: &PaperSetup, modal: &ModalResponses, factor: f64) -> Result<Self, TaskError> {
         let slower = |pole: &Pole| Pole { sigma: pole.sigma / factor, ..*pole };
         let poles: Vec<Pole> = modal.poles.iter().map(slower).collect();
         let tau = 1.0 / poles.iter().map(|pole| pole.sigma).fold(f64::INFINITY, f64::min);
         let ringing = ModalResponses { poles, ..modal.clone() };
         let responses = driven_at(&ringing, actuator(modal, ACTUATOR)?);
-        let focused = focused(bed, &responses, Target::at(bed.target))?;
+        let focused = focused(setup, &responses, Target::at(setup.target))?;
         let drive = focused.drive.as_emitted();
         let field = Field::new(&responses, &drive, CELLS).map_err(TaskError::work)?;
         let mut measured =
-            field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(TaskError::work)?;
-        let traces = field.traces(&[bed.target], bed.window + FOLLOWED).map_err(TaskError::work)?;
+            field.measure(&[Aim::at(setup.target, setup.window)], None).map_err(TaskError::work)?;
+        let traces = field.traces(&[setup.target], setup.window + FOLLOWED).map_err(TaskError::work)?;
         let trace = traces.into_iter().next().map(|trace| trace.velocity).unwrap_or_default();
         let shot = snapshot(&mut measured.maps.at_peak)?;
         Ok(Self { tau, trace, figures: first(measured.targets)?, shot, cells: cells(&field)? })
     }
 
-    fn data(&self, bed: &Bed) -> Value {
-        json!({ "decay_time_s": self.tau, "figures": self.figures, "tail_s": self.over_after(bed) })
+    fn data(&self, setup: &PaperSetup) -> Value {
+        json!({ "decay_time_s": self.tau, "figures": self.figures, "tail_s": self.over_after(setup) })
     }
 
     /// Rms velocity over [`SMOOTHED`] seconds around each sample, relative to the peak.
@@ -87,11 +87,11 @@ impl Alone {
 
     /// Time after the focus at which the tail's level is last above [`OVER`], in seconds; `None` if that is
     /// beyond the evaluated time.
-    fn over_after(&self, bed: &Bed) -> Option<f64> {
-        let levels = self.levels(bed.rate);
+    fn over_after(&self, setup: &PaperSetup) -> Option<f64> {
+        let levels = self.levels(setup.rate);
         let last = levels.iter().rposition(|level| *level > OVER)?;
-        let free = last + 1 + window_samples(SMOOTHED, bed.rate) < levels.len();
-        free.then(|| last as f64 / bed.rate - bed.window)
+        let free = last + 1 + window_samples(SMOOTHED, setup.rate) < levels.len();
+        free.then(|| last as f64 / setup.rate - setup.window)
     }
 }
 
@@ -104,17 +104,21 @@ fn snapshot(shots: &mut Vec<Snapshot>) -> Result<Snapshot, TaskError> {
 
 /// Makes the part of the page on Fig. 2a: one actuator gives a good focus with a short window, followed by
 /// a long tail of noise.
-pub fn one_actuator(bed: &Bed) -> Result<Section, TaskError> {
-    let modal = modal(&bed.responses)?;
-    let papers = Alone::make(bed, modal, 1.0)?;
-    let ringing = Alone::make(bed, modal, LONGER)?;
+pub fn one_actuator(setup: &PaperSetup) -> Result<Section, TaskError> {
+    let modal = modal(&setup.responses)?;
+    let papers = Alone::make(setup, modal, 1.0)?;
+    let ringing = Alone::make(setup, modal, LONGER)?;
     let figures = vec![
         Picture::still(
             "fig2a",
-            focus_and_tail(bed, modal, [&papers, &ringing])?,
-            alone_caption(bed, modal, &papers, &ringing)?,
+            focus_and_tail(setup, modal, [&papers, &ringing])?,
+            alone_caption(setup, modal, &papers, &ringing)?,
         ),
-        Picture::still("fig2a-tail", decay(bed, [&papers, &ringing]), tail_caption(bed, &papers, &ringing)),
+        Picture::still(
+            "fig2a-tail",
+            decay(setup, [&papers, &ringing]),
+            tail_caption(setup, &papers, &ringing),
+        ),
     ];
     let text = format!(
         "The paper's figure does not say how reverberant its cavity is. Here it is the film of its section 4 twice: as it is (amplitude decay \
@@ -122,12 +126,12 @@ pub fn one_actuator(bed: &Bed) -> Result<Section, TaskError> {
          actuator with the same T = {:.0} ms.",
         papers.tau * 1e3,
         ringing.tau * 1e3,
-        bed.window * 1e3
+        setup.window * 1e3
     );
     Ok(Section {
         title: "Fig. 2a: one actuator in a highly reverberant cavity".into(),
         figures,
-        compared: alone_compared(bed, modal, &papers, &ringing),
+        compared: alone_compared(setup, modal, &papers, &ringing),
         predicted: vec![Predicted::new(
             "largest noise anywhere outside, from 0 to 2T",
             both([&papers, &ringing], |film| {
@@ -136,17 +140,21 @@ pub fn one_actuator(bed: &Bed) -> Result<Section, TaskError> {
             "a maximum, which the rms of contrast does not show",
         )],
         text: vec![text],
-        data: json!([papers.data(bed), ringing.data(bed)]),
+        data: json!([papers.data(setup), ringing.data(setup)]),
         ..Section::default()
     })
 }
 
-fn focus_and_tail(bed: &Bed, modal: &ModalResponses, films: [&Alone; 2]) -> Result<Figure, TaskError> {
+fn focus_and_tail(
+    setup: &PaperSetup,
+    modal: &ModalResponses,
+    films: [&Alone; 2],
+) -> Result<Figure, TaskError> {
     let [_, ringing] = films;
     let only = actuator(modal, ACTUATOR)?;
-    let mut surface = bed.surface.clone();
+    let mut surface = setup.surface.clone();
     surface.actuators.retain(|a| a.name == only.name);
-    let scene = Scene::new(&surface, &[vec![bed.target]], 0.0);
+    let scene = Scene::new(&surface, &[vec![setup.target]], 0.0);
     let (multiplier, unit) = prefixed(ringing.figures.peak_velocity_m_s, "m/s");
     let colours = Colours { title: format!("Velocity ({unit})"), multiplier, ..Colours::default() };
     let map = scene.map(
@@ -161,8 +169,8 @@ fn focus_and_tail(bed: &Bed, modal: &ModalResponses, films: [&Alone; 2]) -> Resu
     };
     let tails = Traces {
         x: Axis::new("Time from focus (ms)").times(1e3),
-        start: -bed.window,
-        step: 1.0 / bed.rate,
+        start: -setup.window,
+        step: 1.0 / setup.rate,
         traces: films.iter().enumerate().map(trace).collect(),
         unit,
         multiplier,
@@ -180,12 +188,12 @@ fn focus_and_tail(bed: &Bed, modal: &ModalResponses, films: [&Alone; 2]) -> Resu
     })
 }
 
-fn decay(bed: &Bed, films: [&Alone; 2]) -> Figure {
+fn decay(setup: &PaperSetup, films: [&Alone; 2]) -> Figure {
     let mut layers = vec![Rule { at: OVER, along: Along::X, ..Rule::default() }.into()];
     for (i, film) in films.into_iter().enumerate() {
         let levels: Vec<f64> =
-            film.levels(bed.rate).into_iter().map(|l| if l > 0.0 { l } else { f64::NAN }).collect();
-        let x = (0..levels.len()).map(|i| i as f64 / bed.rate - bed.window).collect();
+            film.levels(setup.rate).into_iter().map(|l| if l > 0.0 { l } else { f64::NAN }).collect();
+        let x = (0..levels.len()).map(|i| i as f64 / setup.rate - setup.window).collect();
         let label = format!("τ = {:.0} ms", film.tau * 1e3);
         layers.push(Line { x, y: levels, label, ink: Ink::Palette(1 - i), ..Line::default() }.into());
     }
@@ -205,7 +213,7 @@ fn shown(time: Option<f64>) -> String {
 }
 
 fn alone_caption(
-    bed: &Bed,
+    setup: &PaperSetup,
     modal: &ModalResponses,
     papers: &Alone,
     ringing: &Alone,
@@ -217,7 +225,7 @@ fn alone_caption(
          paper's film (contrast {}) and in the more reverberant one.",
         only.name,
         place(only.at),
-        place(bed.target),
+        place(setup.target),
         FORCE * 1e3,
         ringing.tau * 1e3,
         ratio(ringing.figures.contrast),
@@ -225,14 +233,14 @@ fn alone_caption(
     ))
 }
 
-fn tail_caption(bed: &Bed, papers: &Alone, ringing: &Alone) -> String {
+fn tail_caption(setup: &PaperSetup, papers: &Alone, ringing: &Alone) -> String {
     format!(
         "The tail of Fig. 2a: rms velocity at the target over {:.0} ms, of the peak. It is last above {:.0} % (dashed) {} after the \
          focus in the paper's film and {} after it in the more reverberant one.",
         SMOOTHED * 1e3,
         OVER * 100.0,
-        shown(papers.over_after(bed)),
-        shown(ringing.over_after(bed))
+        shown(papers.over_after(setup)),
+        shown(ringing.over_after(setup))
     )
 }
 
@@ -241,7 +249,12 @@ fn both(films: [&Alone; 2], of: impl Fn(&Alone) -> String) -> String {
     films.map(|film| format!("{} (τ = {:.0} ms)", of(film), film.tau * 1e3)).join(", ")
 }
 
-fn alone_compared(bed: &Bed, modal: &ModalResponses, papers: &Alone, ringing: &Alone) -> Vec<Compared> {
+fn alone_compared(
+    setup: &PaperSetup,
+    modal: &ModalResponses,
+    papers: &Alone,
+    ringing: &Alone,
+) -> Vec<Compared> {
     let band = modal.conditions.band;
     let form =
         |window| closed::contrast(1.0, band[1] - band[0], ringing.tau, window, modal.poles.len() as f64);
@@ -254,14 +267,14 @@ fn alone_compared(bed: &Bed, modal: &ModalResponses, papers: &Alone, ringing: &A
             format!(
                 "closed form for the longer ringing: {:.1} with this T, {:.1} with ten times it; a short recording gives most of what \
                  there is to gain, ringing longer hardly any",
-                form(bed.window),
-                form(10.0 * bed.window)
+                form(setup.window),
+                form(10.0 * setup.window)
             ),
         ),
         Compared::new(
             format!("tail above {:.0} % of the peak", OVER * 100.0),
             "long",
-            both(films, |film| shown(film.over_after(bed))),
+            both(films, |film| shown(film.over_after(setup))),
             "the waves ring on after the focus and die out with τ: a focus repeated sooner meets what is left of the one before",
         ),
     ]
@@ -274,24 +287,24 @@ mod tests {
     /// Past the focus the level falls as e^{-t/τ}: from just after it to [`OVER`] takes τ ln(level/OVER).
     #[test]
     fn tails_last_as_long_as_their_decay_times_say() {
-        let bed = Bed::new().unwrap();
-        let modal = modal(&bed.responses).unwrap();
+        let setup = PaperSetup::new().unwrap();
+        let modal = modal(&setup.responses).unwrap();
         for factor in [1.0, 3.0] {
-            let film = Alone::make(&bed, modal, factor).unwrap();
-            let levels = film.levels(bed.rate);
-            let at = |t: f64| window_samples(bed.window + t, bed.rate);
+            let film = Alone::make(&setup, modal, factor).unwrap();
+            let levels = film.levels(setup.rate);
+            let at = |t: f64| window_samples(setup.window + t, setup.rate);
             let early = &levels[at(10e-3)..at(30e-3)];
             let level = early.iter().sum::<f64>() / early.len() as f64;
             let expected = 20e-3 + film.tau * (level / OVER).ln();
-            let found = film.over_after(&bed).unwrap();
+            let found = film.over_after(&setup).unwrap();
             assert!((found / expected - 1.0).abs() < 0.2, "{found} against {expected}");
         }
     }
 
     #[test]
     fn a_triangle_stands_out_everywhere_along_it() {
-        let bed = Bed::new().unwrap();
-        let data = triangle(&bed).unwrap().data;
+        let setup = PaperSetup::new().unwrap();
+        let data = triangle(&setup).unwrap().data;
         let contrast = data["figures"]["contrast"].as_f64().unwrap();
         let least = data["least_and_greatest_velocity_of_mean"][0].as_f64().unwrap();
         assert!(least * contrast > 1.0, "{least} of {contrast}");

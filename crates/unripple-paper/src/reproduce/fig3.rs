@@ -1,6 +1,6 @@
 //! Fig. 3 of the paper: reflection and power against frequency for film and glass.
 
-use super::{Bed, Compared, Picture, Predicted, Section};
+use super::{Compared, PaperSetup, Picture, Predicted, Section};
 use serde_json::json;
 use std::f64::consts::TAU;
 use unripple::core::Finger;
@@ -16,7 +16,7 @@ const STEPS: usize = 400;
 const DISPLACEMENT: f64 = 10e-6;
 
 /// Makes the part of the page on Fig. 3: reflection and absorption of a wave that meets a finger.
-pub fn section(bed: &Bed) -> Result<Section, TaskError> {
+pub fn section(setup: &PaperSetup) -> Result<Section, TaskError> {
     let finger = Finger::default();
     let strips = [("glass 1 mm", glass_strip()), ("BoPET 0.125 mm, 2 N", film_strip())];
     let marks: Vec<f64> = table1().iter().map(|touch| touch.frequency_hz).collect();
@@ -51,7 +51,7 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
                 "Power of the incident wave that moves the finger by 10 µm (equation 4). The circles are table 1.",
             ),
         ],
-        compared: compared(bed, &strips.map(|(_, strip)| strip), &finger),
+        compared: compared(setup, &strips.map(|(_, strip)| strip), &finger),
         predicted: vec![most_taken(&strips[1].1, &finger)],
         data: json!({ "glass": every(&swept[0]), "film": every(&swept[1]) }),
         ..Section::default()
@@ -127,9 +127,9 @@ fn power(strips: &[(&str, Strip)], marks: &[f64], finger: &Finger) -> Figure {
     }
 }
 
-fn compared(bed: &Bed, [glass, film]: &[Strip; 2], finger: &Finger) -> Vec<Compared> {
+fn compared(setup: &PaperSetup, [glass, film]: &[Strip; 2], finger: &Finger) -> Vec<Compared> {
     let resonance = resonance(finger);
-    let top = bed.surface.emission.band[1];
+    let top = setup.surface.emission.band[1];
     let muffled = |hz: f64| 1.0 / film.scattering(finger, hz).transmission;
     let impedance = |strip: &Strip, hz: f64| strip.impedance(strip.wavenumber(hz));
     vec![

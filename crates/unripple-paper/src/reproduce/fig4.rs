@@ -5,7 +5,7 @@ mod repeated;
 
 use self::figures::{closely, closely_caption, overview, overview_caption};
 use self::repeated::{AMPLITUDE, Pulse, RATES, Repeated, Tracked, mean};
-use super::bed::Bed;
+use super::bed::PaperSetup;
 use super::fields::largest;
 use super::modes::{closed_contrast, modal};
 use super::section::{Compared, Picture, Predicted, Section};
@@ -16,23 +16,26 @@ use unripple_tasks::TaskError;
 
 /// Makes the part of the page on Fig. 4: pulses at point E five times and at point D twice a second, and
 /// the motion elsewhere.
-pub fn section(bed: &Bed) -> Result<Section, TaskError> {
-    let repeated = Repeated::make(bed)?;
+pub fn section(setup: &PaperSetup) -> Result<Section, TaskError> {
+    let repeated = Repeated::make(setup)?;
     let point = |p: &Tracked| {
-        let noise = p.noise(bed);
-        json!({ "name": p.name, "at_m": [p.at.x, p.at.y], "hz": p.hz, "pulses_m": p.pulses(bed), "noise_rms_m": rms(&noise), "noise_peak_m": largest(&noise) })
+        let noise = p.noise(setup);
+        json!({
+            "name": p.name, "at_m": [p.at.x, p.at.y], "hz": p.hz, "pulses_m": p.pulses(setup),
+            "noise_rms_m": rms(&noise), "noise_peak_m": largest(&noise),
+        })
     };
     let points: Vec<_> = repeated.points.iter().map(point).collect();
     let figures = vec![
-        Picture::still("fig4", overview(bed, &repeated), overview_caption(bed, &repeated)),
-        Picture::still("fig4-pulses", closely(bed, &repeated), closely_caption()),
+        Picture::still("fig4", overview(setup, &repeated), overview_caption(setup, &repeated)),
+        Picture::still("fig4-pulses", closely(setup, &repeated), closely_caption()),
     ];
     Ok(Section {
         title: "Fig. 4: two foci, at 5 Hz and at 2 Hz".into(),
         figures,
-        compared: compared(bed, &repeated),
-        predicted: predicted(bed, &repeated)?,
-        table: table(bed, &repeated),
+        compared: compared(setup, &repeated),
+        predicted: predicted(setup, &repeated)?,
+        table: table(setup, &repeated),
         data: json!({ "period_s": repeated.period, "largest_force_n": repeated.drive.peak(), "pulses": repeated.pulses, "points": points }),
         text: vec![
             format!(
@@ -56,11 +59,11 @@ fn um(metres: f64) -> String {
     format!("{:.1}", metres * 1e6)
 }
 
-fn table(bed: &Bed, repeated: &Repeated) -> Vec<Vec<String>> {
+fn table(setup: &PaperSetup, repeated: &Repeated) -> Vec<Vec<String>> {
     let headings =
         ["point", "at mm", "focus at", "pulses µm: mean (least–greatest)", "noise rms µm", "noise peak µm"];
     let row = |point: &Tracked| {
-        let (pulses, noise) = (point.pulses(bed), point.noise(bed));
+        let (pulses, noise) = (point.pulses(setup), point.noise(setup));
         let (least, greatest) =
             pulses.iter().fold((f64::INFINITY, 0.0), |(l, g): (f64, f64), p| (l.min(*p), g.max(*p)));
         vec![
@@ -80,11 +83,11 @@ fn table(bed: &Bed, repeated: &Repeated) -> Vec<Vec<String>> {
     std::iter::once(headings).chain(repeated.points.iter().map(row)).collect()
 }
 
-fn compared(bed: &Bed, repeated: &Repeated) -> Vec<Compared> {
+fn compared(setup: &PaperSetup, repeated: &Repeated) -> Vec<Compared> {
     let heights: Vec<String> =
-        repeated.foci().map(|p| format!("{} in {}", um(mean(&p.pulses(bed))), p.name)).collect();
+        repeated.foci().map(|p| format!("{} in {}", um(mean(&p.pulses(setup))), p.name)).collect();
     let noise = |points: &mut dyn Iterator<Item = &Tracked>| {
-        let levels: Vec<[f64; 2]> = points.map(|p| p.noise(bed)).map(|n| [rms(&n), largest(&n)]).collect();
+        let levels: Vec<[f64; 2]> = points.map(|p| p.noise(setup)).map(|n| [rms(&n), largest(&n)]).collect();
         [0, 1].map(|i| levels.iter().map(|l| um(l[i])).collect::<Vec<_>>().join(", "))
     };
     let [rms_foci, _] = noise(&mut repeated.foci());
@@ -107,7 +110,7 @@ fn compared(bed: &Bed, repeated: &Repeated) -> Vec<Compared> {
     ]
 }
 
-fn predicted(bed: &Bed, repeated: &Repeated) -> Result<Vec<Predicted>, TaskError> {
+fn predicted(setup: &PaperSetup, repeated: &Repeated) -> Result<Vec<Predicted>, TaskError> {
     let contrasts = |of: fn(&Pulse) -> f64| {
         let when = |together| {
             let pulses = repeated.pulses.iter().filter(|p| p.together == together);
@@ -115,8 +118,8 @@ fn predicted(bed: &Bed, repeated: &Repeated) -> Result<Vec<Predicted>, TaskError
         };
         format!("alone {}; together {}", when(false), when(true))
     };
-    let count = bed.surface.actuators.len();
-    let single = closed_contrast(bed, modal(&bed.responses)?, count);
+    let count = setup.surface.actuators.len();
+    let single = closed_contrast(setup, modal(&setup.responses)?, count);
     let form = single
         .map_or("-".into(), |c| format!("{c:.1} for one focus, {:.1} for two at once", closed::foci(c, 2.0)));
     Ok(vec![

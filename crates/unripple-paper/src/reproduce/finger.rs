@@ -1,7 +1,7 @@
 //! Section 4.3: effect of a finger on the focus and the background.
 
 use super::section::row;
-use super::{Bed, Compared, Picture, Predicted, Section};
+use super::{Compared, PaperSetup, Picture, Predicted, Section};
 use crate::study::{Touched, finger};
 use serde_json::json;
 use unripple_plot::{Along, Axis, Figure, Ink, Layer, Line, Mark, Plot, Points, Rule};
@@ -15,8 +15,8 @@ const PAPERS: f64 = 5.0;
 
 /// Makes the part of the page on section 4 about a finger: its effect on the focus under it and on the
 /// noise, against the size of the contact.
-pub fn section(bed: &Bed) -> Result<Section, TaskError> {
-    let rows = finger(&bed.surface, bed.target, &RADII, bed.window)?;
+pub fn section(setup: &PaperSetup) -> Result<Section, TaskError> {
+    let rows = finger(&setup.surface, setup.target, &RADII, setup.window)?;
     let (unaware, aware): (Vec<&Touched>, Vec<&Touched>) = rows.iter().partition(|r| !r.known);
     Ok(Section {
         title: "Section 4: the finger".into(),

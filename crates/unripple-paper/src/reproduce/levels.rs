@@ -1,7 +1,7 @@
 //! Section 4: displacement and electric power of the focus.
 
 use super::section::{row, three};
-use super::{Bed, Compared, Picture, Predicted, Section, coils};
+use super::{Compared, PaperSetup, Picture, Predicted, Section, coils};
 use serde::Serialize;
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
@@ -50,16 +50,16 @@ struct Level {
 
 /// Makes the part of the page on the 40 µm and 200 µm cases of section 4: force, power, strain and whether
 /// linear theory holds.
-pub fn section(bed: &Bed) -> Result<Section, TaskError> {
-    let played = [Method::TimeReversal, Method::OneBit].map(|method| play(bed, method));
+pub fn section(setup: &PaperSetup) -> Result<Section, TaskError> {
+    let played = [Method::TimeReversal, Method::OneBit].map(|method| play(setup, method));
     let [reversed, one_bit] = played;
     let played = [reversed?, one_bit?];
-    let reachable = coils::judged(bed).reachable;
+    let reachable = coils::judged(setup).reachable;
     let levels: Vec<Level> = played.iter().flat_map(|p| LEVELS.map(|level| p.at(level, reachable))).collect();
-    let limits = deformation(&bed.surface);
+    let limits = deformation(&setup.surface);
     Ok(Section {
         title: "Section 4: 40 µm and 200 µm".into(),
-        text: vec![scaling(bed, reachable), powers(bed)],
+        text: vec![scaling(setup, reachable), powers(setup)],
         figures: vec![Picture::still(
             "levels",
             figure(&played, &limits),
@@ -67,20 +67,20 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
              lines are what linear theory would say. Yield is that of a wave of the shortest wavelength.",
         )],
         compared: compared(&limits, &played[0]),
-        predicted: predicted(bed, &levels, &limits),
+        predicted: predicted(setup, &levels, &limits),
         table: table(&levels, reachable),
         data: json!({ "levels": levels, "deformation": limits, "force_constant_reachable_n_per_a": reachable }),
     })
 }
 
-fn play(bed: &Bed, method: Method) -> Result<Played, TaskError> {
+fn play(setup: &PaperSetup, method: Method) -> Result<Played, TaskError> {
     let options =
-        Options { method, window: bed.window, limit: bed.surface.emission.limit, ..Options::default() };
-    let focused = focus(&bed.responses, &[Target::at(bed.target)], &options).map_err(TaskError::input)?;
+        Options { method, window: setup.window, limit: setup.surface.emission.limit, ..Options::default() };
+    let focused = focus(&setup.responses, &[Target::at(setup.target)], &options).map_err(TaskError::input)?;
     let drive = focused.drive.as_emitted();
-    let field = Field::new(&bed.responses, &drive, judge::CELLS).map_err(TaskError::input)?;
-    let measured = field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(TaskError::input)?;
-    let known = power(&bed.surface, &field, drive.duration())?;
+    let field = Field::new(&setup.responses, &drive, judge::CELLS).map_err(TaskError::input)?;
+    let measured = field.measure(&[Aim::at(setup.target, setup.window)], None).map_err(TaskError::input)?;
+    let known = power(&setup.surface, &field, drive.duration())?;
     let power =
         known.ok_or_else(|| TaskError::Work("power: expected responses from modes, found samples".into()))?;
     drop(field);
@@ -145,7 +145,7 @@ fn table(levels: &[Level], reachable: f64) -> Vec<Vec<String>> {
     std::iter::once(headings).chain(levels.iter().map(cells)).collect()
 }
 
-fn predicted(bed: &Bed, levels: &[Level], limits: &Deformation) -> Vec<Predicted> {
+fn predicted(setup: &PaperSetup, levels: &[Level], limits: &Deformation) -> Vec<Predicted> {
     let mut rows: Vec<Predicted> = Vec::new();
     for level in levels.iter().filter(|l| l.method == Method::TimeReversal.name()) {
         let um = level.displacement_m * 1e6;
@@ -154,7 +154,7 @@ fn predicted(bed: &Bed, levels: &[Level], limits: &Deformation) -> Vec<Predicted
             format!("{} peak, {} rms", shown(level.peak_force_n, "N"), shown(level.rms_force_n, "N")),
             "a bare sheet, no finger on it, ideal actuators",
         ));
-        rows.push(touch(bed, level.displacement_m));
+        rows.push(touch(setup, level.displacement_m));
         rows.extend(strain(limits, level.displacement_m));
     }
     rows
@@ -175,16 +175,16 @@ fn compared(limits: &Deformation, reversed: &Played) -> Vec<Compared> {
 }
 
 /// A strip of the film as wide as the finger's contact, and the wavenumber of its shortest waves, in rad/m.
-fn strip(bed: &Bed) -> (Strip, f64) {
-    let sheet = &bed.surface.sheet;
-    let width = 2.0 * bed.surface.finger.contact_radius;
+fn strip(setup: &PaperSetup) -> (Strip, f64) {
+    let sheet = &setup.surface.sheet;
+    let width = 2.0 * setup.surface.finger.contact_radius;
     let strip = Strip::of_sheet(sheet.young, sheet.density, sheet.thickness, sheet.tension, width);
-    (strip, TAU / bed.responses.conditions().lambda_min)
+    (strip, TAU / setup.responses.conditions().lambda_min)
 }
 
 /// Power of a wave of the shortest wavelength that moves the finger by `amplitude` metres (equation 4).
-fn touch(bed: &Bed, amplitude: f64) -> Predicted {
-    let (finger, (strip, k)) = (&bed.surface.finger, strip(bed));
+fn touch(setup: &PaperSetup, amplitude: f64) -> Predicted {
+    let (finger, (strip, k)) = (&setup.surface.finger, strip(setup));
     let power = strip.power(finger, k, amplitude);
     let taken = power * strip.scattering(finger, k * strip.celerity(k) / TAU).absorbed_power;
     Predicted::new(
@@ -254,7 +254,7 @@ fn figure(played: &[Played], limits: &Deformation) -> Figure {
 }
 
 /// Text on what scales with the level, and for what drive.
-fn scaling(bed: &Bed, reachable: f64) -> String {
+fn scaling(setup: &PaperSetup, reachable: f64) -> String {
     let [low, high] = LEVELS.map(|level| level * 1e6);
     format!(
         "The paper measured pulses of {low:.0} µm and says that {high:.0} µm follow by scaling up. In linear theory a drive scales \
@@ -262,15 +262,15 @@ fn scaling(bed: &Bed, reachable: f64) -> String {
          film, {} actuators and a window of {:.0} ms. The heat in coils takes the paper's {RESISTANCE} Ω, and is given twice: with \
          the {FORCE_CONSTANT} N/A that the paper prints, and with the {} N/A that such a coil and magnet can reach (see the section \
          on coils), for the same forces.",
-        bed.surface.actuators.len(),
-        bed.window * 1e3,
+        setup.surface.actuators.len(),
+        setup.window * 1e3,
         three(reachable)
     )
 }
 
 /// Text on the two powers, and why they differ by orders of magnitude.
-fn powers(bed: &Bed) -> String {
-    let (finger, (strip, k)) = (&bed.surface.finger, strip(bed));
+fn powers(setup: &PaperSetup) -> String {
+    let (finger, (strip, k)) = (&setup.surface.finger, strip(setup));
     let passed = strip.scattering(finger, k * strip.celerity(k) / TAU).transmission;
     format!(
         "The power of equation 4 is the crest of a steady wave of the shortest wavelength under a finger, which moves with \
@@ -278,6 +278,6 @@ fn powers(bed: &Bed) -> String {
          the bare film; they differ by orders of magnitude since the finger alone costs a factor of {:.0}, and since the film \
          stores what it is given for {:.0} ms and returns it in one short pulse, most of whose displacement is of longer waves.",
         passed.powi(-2),
-        bed.window * 1e3
+        setup.window * 1e3
     )
 }

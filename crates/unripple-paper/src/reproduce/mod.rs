@@ -24,7 +24,7 @@ mod section;
 mod table1;
 
 pub use ask::Ask;
-pub(crate) use bed::Bed;
+pub(crate) use bed::PaperSetup;
 pub use report::{ComparedReport, FigureReport, PredictedReport, Report, SectionReport};
 pub use run::run;
 pub(crate) use section::{Compared, Picture, Predicted, Section};

@@ -1,6 +1,6 @@
 //! Modal responses of the film with one actuator, and the largest force that figures of it share.
 
-use super::Bed;
+use super::PaperSetup;
 use unripple::core::{Conditions, Decay, ModalResponses, Port, Responses};
 use unripple::physics::design::closed;
 use unripple_tasks::TaskError;
@@ -34,11 +34,11 @@ pub(super) fn driven_at(modal: &ModalResponses, port: Port) -> Responses {
     Responses::Modal(ModalResponses { ports: vec![port], input, ..modal.clone() })
 }
 
-/// The closed form's contrast on the bed's film with `actuators` actuators; `None` where decay varies with frequency.
-pub(super) fn closed_contrast(bed: &Bed, modal: &ModalResponses, actuators: usize) -> Option<f64> {
-    let Decay::Time(tau) = bed.surface.sheet.decay else { return None };
+/// The closed form's contrast on the setup's film with `actuators` actuators; `None` where decay varies with frequency.
+pub(super) fn closed_contrast(setup: &PaperSetup, modal: &ModalResponses, actuators: usize) -> Option<f64> {
+    let Decay::Time(tau) = setup.surface.sheet.decay else { return None };
     let Conditions { band: [low, high], .. } = modal.conditions;
-    Some(closed::contrast(actuators as f64, high - low, tau, bed.window, modal.poles.len() as f64))
+    Some(closed::contrast(actuators as f64, high - low, tau, setup.window, modal.poles.len() as f64))
 }
 
 #[cfg(test)]
@@ -50,8 +50,8 @@ mod tests {
 
     #[test]
     fn one_port_takes_in_what_that_actuator_does() {
-        let bed = Bed::new().unwrap();
-        let modal = modal(&bed.responses).unwrap();
+        let setup = PaperSetup::new().unwrap();
+        let modal = modal(&setup.responses).unwrap();
         let port = actuator(modal, ACTUATOR).unwrap();
         let Responses::Modal(alone) = driven_at(modal, port) else { unreachable!() };
         assert_eq!(alone.input.ncols(), modal.poles.len());

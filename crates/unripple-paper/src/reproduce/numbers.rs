@@ -1,7 +1,7 @@
 //! Numbers in the paper's text, computed again: first mode, wavelength, phase velocity.
 
 use super::section::row;
-use super::{Bed, Compared, Section};
+use super::{Compared, PaperSetup, Section};
 use serde_json::json;
 use std::f64::consts::TAU;
 use unripple::core::{Air, Surface};
@@ -18,8 +18,8 @@ const PRINTED_TENSION: f64 = 30.0;
 
 /// Makes the part of the page on section 4 with the numbers printed for the paper's membrane, and remarks
 /// on its text.
-pub fn section(bed: &Bed) -> Result<Section, TaskError> {
-    let surface = &bed.surface;
+pub fn section(setup: &PaperSetup) -> Result<Section, TaskError> {
+    let surface = &setup.surface;
     let design = design(surface).map_err(TaskError::input)?;
     let missing = || TaskError::Work("the bed: expected the paper's film, found another surface".into());
     let paper = design.paper.as_ref().ok_or_else(missing)?;

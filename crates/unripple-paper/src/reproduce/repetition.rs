@@ -1,8 +1,8 @@
 //! Contrast of a repeated focus against its period.
 
 use super::contrast::{Statistic, curve, departure, of, series, statistics};
-use super::{Bed, Compared, Picture, Predicted, Section};
-use crate::study::{self, Bench, CELLS, Sampling, against_period};
+use super::{Compared, PaperSetup, Picture, Predicted, Section};
+use crate::study::{self, CELLS, ContrastModel, Sampling, against_period};
 use serde_json::json;
 use unripple::core::{Decay, Surface};
 use unripple::physics::design::{Cavity, closed};
@@ -23,16 +23,16 @@ struct Case {
 
 /// Makes the part of the page on section 3.2: contrast of a repeated focus, with the surface's decay time
 /// and with the one that the paper recommends.
-pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
-    let own = &bed.surface;
+pub fn section(setup: &PaperSetup, placements: usize) -> Result<Section, TaskError> {
+    let own = &setup.surface;
     let actuators = own.actuators.len();
-    let short = bed.window / actuators as f64;
+    let short = setup.window / actuators as f64;
     let mut damped = own.clone();
     damped.sheet.decay = Decay::Time(short);
     let long = Cavity::of(own, own.emission.band[1]).decay_time();
     let periods = PERIODS.map(|share| share * long);
-    let study = |surface: &Surface, bench: &Bench, s: &Sampling| {
-        against_period(bench, surface, bed.window, &periods, &[actuators], s)
+    let study = |surface: &Surface, model: &ContrastModel, s: &Sampling| {
+        against_period(model, surface, setup.window, &periods, &[actuators], s)
     };
     let slow = case(own, long, study, placements)?;
     let quick = case(&damped, short, study, placements)?;
@@ -45,12 +45,12 @@ pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
         )],
         figures: vec![Picture::still(
             "contrast-period",
-            figure([&slow, &quick], bed.window, actuators as f64),
+            figure([&slow, &quick], setup.window, actuators as f64),
             format!(
                 "Contrast of a focus repeated for ever against its period, {actuators} actuators and {}, for the \
                  surface's decay time and for the paper's advice. Marks: simulation over {placements} placements, bars \
                  the standard error. Lines: closed form. Dotted: the plain closed form.",
-                ms(bed.window)
+                ms(setup.window)
             ),
         )],
         compared: vec![compared(&slow, &quick)],
@@ -67,12 +67,12 @@ pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
 
 fn case<F>(surface: &Surface, decay_time: f64, study: F, placements: usize) -> Result<Case, TaskError>
 where
-    F: Fn(&Surface, &Bench, &Sampling) -> Vec<study::Compared>,
+    F: Fn(&Surface, &ContrastModel, &Sampling) -> Vec<study::Compared>,
 {
-    let bench = Bench::of(surface, CELLS)?;
-    let modes = bench.modes() as f64;
+    let model = ContrastModel::of(surface, CELLS)?;
+    let modes = model.modes() as f64;
     let cavity = Cavity::of(surface, surface.emission.band[1]).counted(modes);
-    let all = statistics(placements, |sampling| Ok(study(surface, &bench, sampling)))?;
+    let all = statistics(placements, |sampling| Ok(study(surface, &model, sampling)))?;
     Ok(Case { decay_time, rows: of(&all, surface.actuators.len()), cavity, modes })
 }
 

@@ -1,8 +1,8 @@
 //! Runs `reproduce`: the paper's experiments one after the other.
 
 use super::{
-    Ask, Bed, Report, Section, cavities, coils, contrast, fig1, fig2, fig3, fig4, finger, levels, numbers,
-    page, repetition, table1,
+    Ask, PaperSetup, Report, Section, cavities, coils, contrast, fig1, fig2, fig3, fig4, finger, levels,
+    numbers, page, repetition, table1,
 };
 use unripple_tasks::{Progress, TaskError, figures, folder, go_on};
 
@@ -46,34 +46,34 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 }
 
 /// Function that makes one section from the paper's surface and the number of placements.
-type Maker = fn(&Bed, usize) -> Result<Section, TaskError>;
+type Maker = fn(&PaperSetup, usize) -> Result<Section, TaskError>;
 
 /// Every section in the paper's order.
 fn sections(placements: usize, progress: &mut dyn Progress) -> Result<Vec<Section>, TaskError> {
     let makers: [(&str, Maker); 13] = [
-        ("Fig. 1", |bed, _| fig1::section(bed)),
-        ("Fig. 2a", |bed, _| fig2::one_actuator(bed)),
-        ("Fig. 2b", |bed, _| fig2::triangle(bed)),
+        ("Fig. 1", |setup, _| fig1::section(setup)),
+        ("Fig. 2a", |setup, _| fig2::one_actuator(setup)),
+        ("Fig. 2b", |setup, _| fig2::triangle(setup)),
         ("section 2", cavities::section),
         ("section 3.1", contrast::section),
         ("section 3.2", repetition::section),
-        ("Fig. 3", |bed, _| fig3::section(bed)),
-        ("Table 1", |bed, _| table1::section(bed)),
-        ("section 4", |bed, _| numbers::section(bed)),
-        ("finger", |bed, _| finger::section(bed)),
-        ("coils", |bed, _| coils::section(bed)),
-        ("Fig. 4", |bed, _| fig4::section(bed)),
-        ("40 µm and 200 µm", |bed, _| levels::section(bed)),
+        ("Fig. 3", |setup, _| fig3::section(setup)),
+        ("Table 1", |setup, _| table1::section(setup)),
+        ("section 4", |setup, _| numbers::section(setup)),
+        ("finger", |setup, _| finger::section(setup)),
+        ("coils", |setup, _| coils::section(setup)),
+        ("Fig. 4", |setup, _| fig4::section(setup)),
+        ("40 µm and 200 µm", |setup, _| levels::section(setup)),
     ];
     go_on(progress)?;
     progress.stage("modes of the surface");
-    let bed = Bed::new()?;
+    let setup = PaperSetup::new()?;
     let mut sections = Vec::new();
     for (done, (name, maker)) in makers.iter().enumerate() {
         go_on(progress)?;
         progress.stage(name);
         progress.done(done as f64 / makers.len() as f64);
-        sections.push(maker(&bed, placements)?);
+        sections.push(maker(&setup, placements)?);
     }
     Ok(sections)
 }

@@ -1,7 +1,7 @@
 //! Table 1: power to move a fingertip by 10 µm through glass and film.
 
 use super::section::{row, three};
-use super::{Bed, Compared, Section};
+use super::{Compared, PaperSetup, Section};
 use std::f64::consts::TAU;
 use unripple::core::Finger;
 use unripple::physics::design::{Touch, glass_strip, table1};
@@ -12,7 +12,7 @@ const DISPLACEMENT: f64 = 10e-6;
 
 /// Makes the part of the page on table 1: the power that moves a fingertip by 10 µm, through glass and
 /// through film.
-pub fn section(_: &Bed) -> Result<Section, TaskError> {
+pub fn section(_: &PaperSetup) -> Result<Section, TaskError> {
     let touches = table1();
     let data = serde_json::to_value(&touches).map_err(TaskError::work)?;
     Ok(Section {

@@ -41,7 +41,7 @@ pub enum StudyError {
 /// Σ_n I_mn φ_n(a) φ_n(A), where I has all that depends on time ([`Replay`]). The sum of squares of a field over the
 /// grid is vᵀKv with K = Σ_x φ(x)φ(x)ᵀ.
 #[derive(Clone, Debug)]
-pub struct Bench {
+pub struct ContrastModel {
     shapes: Arc<Modes>,
     poles: Vec<Pole>,
     conditions: Conditions,
@@ -70,7 +70,7 @@ impl Outside {
     }
 }
 
-impl Bench {
+impl ContrastModel {
     /// Prepares a surface in its band, on a grid of `cells` cells per shortest wavelength ([`CELLS`] for the definition
     /// of contrast).
     ///
@@ -81,7 +81,7 @@ impl Bench {
         Self::with(surface, Arc::new(modes), cells)
     }
 
-    /// A bench of the same surface with a band that ends at `top_hz` (Hz), at most at the top of the
+    /// A model of the same surface with a band that ends at `top_hz` (Hz), at most at the top of the
     /// present band.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Simulated contrast compared with the closed forms, one parameter varied at a time.
 
-use super::{Bench, Draw, Random, Replay, Sampling, StudyError};
+use super::{ContrastModel, Draw, Random, Replay, Sampling, StudyError};
 use rayon::prelude::*;
 use unripple_core::{Point, Surface};
 use unripple_linalg::{Mat, MatRef, product};
@@ -25,23 +25,23 @@ pub struct Compared {
 /// Contrast of a single focus, one row for each window (s, ascending) and number of actuators.
 ///
 /// ```
-/// # use unripple_paper::study::{Bench, CELLS, Sampling, against_window};
+/// # use unripple_paper::study::{ContrastModel, CELLS, Sampling, against_window};
 /// let surface = unripple_physics::design::papers_surface();
 /// let sampling = Sampling { placements: 4, ..Sampling::default() };
-/// let rows = against_window(&Bench::of(&surface, CELLS)?, &surface, &[0.030], &[8], &sampling);
+/// let rows = against_window(&ContrastModel::of(&surface, CELLS)?, &surface, &[0.030], &[8], &sampling);
 /// assert!((rows[0].simulated / rows[0].predicted - 1.0).abs() < 0.2);
 /// # Ok::<(), unripple_paper::study::StudyError>(())
 /// ```
 pub fn against_window(
-    bench: &Bench,
+    model: &ContrastModel,
     surface: &Surface,
     windows: &[f64],
     actuators: &[usize],
     sampling: &Sampling,
 ) -> Vec<Compared> {
-    let form = Form::of(bench, surface);
-    let replays: Vec<_> = windows.iter().map(|window| bench.once(*window)).collect();
-    let means = means(bench, &replays, actuators, sampling);
+    let form = Form::of(model, surface);
+    let replays: Vec<_> = windows.iter().map(|window| model.once(*window)).collect();
+    let means = means(model, &replays, actuators, sampling);
     let row = |(window, n, simulated): (f64, usize, f64)| Compared {
         actuators: n,
         varied: window,
@@ -54,16 +54,16 @@ pub fn against_window(
 
 /// Contrast of a focus repeated with a period, with a window (s): one row for each period (s) and number of actuators.
 pub fn against_period(
-    bench: &Bench,
+    model: &ContrastModel,
     surface: &Surface,
     window: f64,
     periods: &[f64],
     actuators: &[usize],
     sampling: &Sampling,
 ) -> Vec<Compared> {
-    let form = Form::of(bench, surface);
-    let replays: Vec<_> = periods.iter().map(|period| bench.repeated(window, *period)).collect();
-    let means = means(bench, &replays, actuators, sampling);
+    let form = Form::of(model, surface);
+    let replays: Vec<_> = periods.iter().map(|period| model.repeated(window, *period)).collect();
+    let means = means(model, &replays, actuators, sampling);
     let row = |(period, n, simulated): (f64, usize, f64)| Compared {
         actuators: n,
         varied: period,
@@ -80,14 +80,14 @@ pub fn against_period(
 /// # Errors
 /// [`StudyError::Field`] if a band is so narrow that its grid has no cells.
 pub fn against_band(
-    bench: &Bench,
+    model: &ContrastModel,
     surface: &Surface,
     tops: &[f64],
     (actuators, window): (usize, f64),
     sampling: &Sampling,
 ) -> Result<Vec<Compared>, StudyError> {
     let row = |top: &f64| {
-        let narrow = bench.up_to(surface, *top)?;
+        let narrow = model.up_to(surface, *top)?;
         let mut surface = surface.clone();
         surface.emission.band[1] = *top;
         let mut rows = against_window(&narrow, &surface, &[window], &[actuators], sampling);
@@ -101,26 +101,26 @@ pub fn against_band(
 /// noise ratio, at one number of actuators and one window (s). The ratio is the rms of the noise within the band over
 /// the rms of the responses over the window, without unit.
 pub fn against_noise(
-    bench: &Bench,
+    model: &ContrastModel,
     surface: &Surface,
     ratios: &[f64],
     (actuators, window): (usize, f64),
     sampling: &Sampling,
 ) -> Vec<Compared> {
-    let form = Form::of(bench, surface);
-    let replay = bench.once(window);
-    let rings = bench.rings(window);
-    let found = over(bench, actuators, sampling, |index, draw, inputs| {
+    let form = Form::of(model, surface);
+    let replay = model.once(window);
+    let rings = model.rings(window);
+    let found = over(model, actuators, sampling, |index, draw, inputs| {
         let mut random = Random::seeded(sampling.seed.wrapping_mul(7919).wrapping_add(index as u64));
-        let noise = noise_state(bench, inputs, rings.as_ref(), &mut random);
+        let noise = noise_state(model, inputs, rings.as_ref(), &mut random);
         let replayed = |target: &Point| {
-            let outside = bench.outside(*target);
-            let states = bench.states(&replay, inputs, &outside);
+            let outside = model.outside(*target);
+            let states = model.states(&replay, inputs, &outside);
             let state = states.col(actuators.saturating_sub(1));
-            let level = noise_level(bench, outside.at_target(state.as_mat())[0], actuators, window);
+            let level = noise_level(model, outside.at_target(state.as_mat())[0], actuators, window);
             let noisy =
                 Mat::from_fn(state.nrows(), ratios.len(), |m, r| state[m] + ratios[r] * level * noise[m]);
-            bench.contrasts(noisy.as_ref(), &outside)
+            model.contrasts(noisy.as_ref(), &outside)
         };
         draw.targets.iter().map(replayed).collect()
     });
@@ -139,14 +139,14 @@ pub fn against_noise(
 
 /// Velocity of each mode at the focal instant due to white noise of unit variance on every channel.
 fn noise_state(
-    bench: &Bench,
+    model: &ContrastModel,
     inputs: MatRef<'_, f64>,
     rings: MatRef<'_, f64>,
     random: &mut Random,
 ) -> Vec<f64> {
     let noise = Mat::from_fn(rings.nrows(), inputs.nrows(), |_, _| random.normal());
     let left = product(rings.transpose(), noise.as_ref());
-    let rate = bench.conditions().rate;
+    let rate = model.conditions().rate;
     (0..rings.ncols())
         .map(|m| (0..inputs.nrows()).map(|a| inputs[(a, m)] * left[(m, a)]).sum::<f64>() / rate)
         .collect()
@@ -155,13 +155,13 @@ fn noise_state(
 /// Standard deviation of the white samples whose rms within the band is that of the responses over the window.
 ///
 /// The velocity at a focus is the energy Σ∫h² of the responses from which it was computed.
-fn noise_level(bench: &Bench, velocity: f64, actuators: usize, window: f64) -> f64 {
-    let conditions = bench.conditions();
+fn noise_level(model: &ContrastModel, velocity: f64, actuators: usize, window: f64) -> f64 {
+    let conditions = model.conditions();
     let share = 2.0 * (conditions.band[1] - conditions.band[0]) / conditions.rate;
     (velocity / actuators as f64 / window / share).sqrt()
 }
 
-/// Parameters of the closed forms for a bench.
+/// Parameters of the closed forms for a model.
 struct Form {
     cavity: Cavity,
     bandwidth: f64,
@@ -170,8 +170,8 @@ struct Form {
 }
 
 impl Form {
-    fn of(bench: &Bench, surface: &Surface) -> Self {
-        let modes = bench.modes() as f64;
+    fn of(model: &ContrastModel, surface: &Surface) -> Self {
+        let modes = model.modes() as f64;
         let [low, top] = surface.emission.band;
         let cavity = Cavity::of(surface, top).counted(modes);
         Self { decay_time: cavity.decay_time(), cavity, bandwidth: top - low, modes }
@@ -193,16 +193,21 @@ impl Form {
 }
 
 /// Mean contrasts, maps x numbers of actuators.
-fn means(bench: &Bench, replays: &[Replay], actuators: &[usize], sampling: &Sampling) -> Vec<Vec<f64>> {
+fn means(
+    model: &ContrastModel,
+    replays: &[Replay],
+    actuators: &[usize],
+    sampling: &Sampling,
+) -> Vec<Vec<f64>> {
     let most = actuators.iter().copied().max().unwrap_or(0);
-    let found = over(bench, most, sampling, |_, draw, inputs| {
+    let found = over(model, most, sampling, |_, draw, inputs| {
         draw.targets
             .iter()
             .map(|target| {
-                let outside = bench.outside(*target);
+                let outside = model.outside(*target);
                 let contrasts = |replay: &Replay| {
-                    let states = bench.states(replay, inputs, &outside);
-                    let all = bench.contrasts(states.as_ref(), &outside);
+                    let states = model.states(replay, inputs, &outside);
+                    let all = model.contrasts(states.as_ref(), &outside);
                     actuators.iter().map(|n| all[n.saturating_sub(1)]).collect::<Vec<_>>()
                 };
                 replays.iter().flat_map(contrasts).collect()
@@ -214,15 +219,20 @@ fn means(bench: &Bench, replays: &[Replay], actuators: &[usize], sampling: &Samp
 }
 
 /// Calls `evaluate` for every random placement, and returns a row of values per target.
-pub(super) fn over<F>(bench: &Bench, actuators: usize, sampling: &Sampling, evaluate: F) -> Vec<Vec<f64>>
+pub(super) fn over<F>(
+    model: &ContrastModel,
+    actuators: usize,
+    sampling: &Sampling,
+    evaluate: F,
+) -> Vec<Vec<f64>>
 where
     F: Fn(usize, &Draw, MatRef<'_, f64>) -> Vec<Vec<f64>> + Sync,
 {
-    let draws = sampling.draws(bench.outline(), actuators);
+    let draws = sampling.draws(model.outline(), actuators);
     let found: Vec<_> = draws
         .par_iter()
         .enumerate()
-        .map(|(i, draw)| evaluate(i, draw, bench.shapes_at(&draw.actuators).as_ref()))
+        .map(|(i, draw)| evaluate(i, draw, model.shapes_at(&draw.actuators).as_ref()))
         .collect();
     found.concat()
 }

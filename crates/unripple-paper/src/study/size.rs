@@ -1,7 +1,7 @@
 //! Size of the focus in space and time, compared with the closed forms.
 
 use super::contrast::{mean, over};
-use super::{Bench, Sampling};
+use super::{ContrastModel, Sampling};
 use std::f64::consts::TAU;
 use unripple_core::{Point, Surface, window_samples};
 use unripple_linalg::{ColRef, Mat, MatRef, product, times_column};
@@ -31,21 +31,21 @@ pub struct Size {
 /// targets. Foci that do not fall to half within a shortest wavelength, or within a period of the top of the band, are
 /// left out.
 pub fn size(
-    bench: &Bench,
+    model: &ContrastModel,
     surface: &Surface,
     (actuators, window): (usize, f64),
     sampling: &Sampling,
 ) -> Size {
-    let replay = bench.once(window);
-    let lag = window_samples(1.0 / bench.conditions().band[1], bench.conditions().rate);
-    let rings = bench.rings(window + lag as f64 / bench.conditions().rate);
-    let found = over(bench, actuators, sampling, |_, draw, inputs| {
+    let replay = model.once(window);
+    let lag = window_samples(1.0 / model.conditions().band[1], model.conditions().rate);
+    let rings = model.rings(window + lag as f64 / model.conditions().rate);
+    let found = over(model, actuators, sampling, |_, draw, inputs| {
         let sizes = |target: &Point| {
-            let outside = bench.outside(*target);
-            let states = bench.states(&replay, inputs, &outside);
-            let spot = spot(bench, *target, states.col(actuators.saturating_sub(1)));
-            let shapes = bench.shapes_at(&[*target]);
-            vec![spot, pulse(bench, inputs, shapes.as_ref(), rings.as_ref(), lag)]
+            let outside = model.outside(*target);
+            let states = model.states(&replay, inputs, &outside);
+            let spot = spot(model, *target, states.col(actuators.saturating_sub(1)));
+            let shapes = model.shapes_at(&[*target]);
+            vec![spot, pulse(model, inputs, shapes.as_ref(), rings.as_ref(), lag)]
         };
         draw.targets.iter().map(sizes).collect()
     });
@@ -54,15 +54,15 @@ pub fn size(
     let growth = Cavity::of(surface, top).growth();
     Size {
         spot_diameter_m: average(0),
-        spot_predicted_m: closed::spot_diameter(bench.conditions().lambda_min),
+        spot_predicted_m: closed::spot_diameter(model.conditions().lambda_min),
         pulse_duration_s: average(1),
         pulse_predicted_s: closed::pulse_duration(top - low, growth),
     }
 }
 
 /// Twice the mean radius at which a state falls to half, over all directions, in metres.
-fn spot(bench: &Bench, target: Point, state: ColRef<'_, f64>) -> f64 {
-    let step = REACH * bench.conditions().lambda_min / RADII as f64;
+fn spot(model: &ContrastModel, target: Point, state: ColRef<'_, f64>) -> f64 {
+    let step = REACH * model.conditions().lambda_min / RADII as f64;
     let place = |direction: usize, ring: usize| {
         let (sin, cos) = (TAU * direction as f64 / DIRECTIONS as f64).sin_cos();
         let radius = step * ring as f64;
@@ -70,7 +70,7 @@ fn spot(bench: &Bench, target: Point, state: ColRef<'_, f64>) -> f64 {
     };
     let places: Vec<Point> =
         (0..DIRECTIONS).flat_map(|d| (0..=RADII).map(move |r| (d, r))).map(|(d, r)| place(d, r)).collect();
-    let field = times_column(bench.shapes_at(&places).as_ref(), state);
+    let field = times_column(model.shapes_at(&places).as_ref(), state);
     let radius = |d: usize| {
         let ray: Vec<f64> = (0..=RADII).map(|r| field[d * (RADII + 1) + r]).collect();
         step * half_at(&ray)
@@ -82,7 +82,7 @@ fn spot(bench: &Bench, target: Point, state: ColRef<'_, f64>) -> f64 {
 ///
 /// The velocity is the sum of the responses' autocorrelations: `Σ_l h[l + s] h[l]` at s samples after that instant, likewise before.
 fn pulse(
-    bench: &Bench,
+    model: &ContrastModel,
     inputs: MatRef<'_, f64>,
     target: MatRef<'_, f64>,
     rings: MatRef<'_, f64>,
@@ -98,7 +98,7 @@ fn pulse(
     };
     let after: Vec<f64> = (0..=lag).map(|s| sum(0..=last, s)).collect();
     let before: Vec<f64> = (0..=lag.min(last)).map(|s| sum(0..=last - s, s)).collect();
-    (half_at(&after) + half_at(&before)) / bench.conditions().rate
+    (half_at(&after) + half_at(&before)) / model.conditions().rate
 }
 
 /// Where values first fall to half of the first, in steps, between samples linearly; NaN if they never do.

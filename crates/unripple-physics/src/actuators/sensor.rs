@@ -29,13 +29,16 @@ use unripple_linalg::{Mat, c64};
 /// 17, 109, 1945).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
-    /// Contact at which it senses, as points and weights.
+    /// The contact over which the actuator senses the sheet's motion, as quadrature points and weights.
     pub footprint: Footprint,
-    /// Signal per velocity (m/s) through the footprint; with a closed circuit, the electromotive force per velocity, in V·s/m.
+    /// Signal per velocity (m/s) over the footprint; for a coil in a closed circuit, the electromotive
+    /// force per velocity, in V·s/m.
     pub gain: f64,
-    /// The closed circuit in which the motion drives a current, for a coil driven by a voltage.
+    /// For a coil driven by a voltage, the closed circuit in which the sheet's motion drives a current;
+    /// `None` for other actuators.
     pub circuit: Option<Circuit>,
-    /// The housing that an exciter senses the motion against.
+    /// The housing of an exciter, relative to which the exciter senses the sheet's motion; `None` for other
+    /// actuators.
     pub housing: Option<Housing>,
     /// Unit of the signal: m/s, V or A.
     pub unit: &'static str,
@@ -44,7 +47,7 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// A transducer of some kind of actuator as a sensor.
+    /// The sensor that corresponds to the transducer of an actuator of the given kind.
     pub(super) fn of(transducer: &Transducer, kind: &ActuatorKind) -> Self {
         let circuit = match transducer.entry {
             Entry::Voltage => transducer.load.as_ref().and_then(|load| load.circuit),
@@ -68,26 +71,27 @@ impl Sensor {
         }
     }
 
-    /// Whether the velocity under the contact can be computed from the signal. It cannot for a patch, which senses the sheet's
-    /// bending, nor for an exciter, whose housing follows the sheet far below its resonance: what it does not sense there, a
-    /// signal that was cut off or has an offset would give without bounds.
-    pub fn tells_velocity(&self) -> bool {
+    /// Whether the velocity under the contact can be computed from the sensor signal. It cannot for a
+    /// patch, which senses the sheet's bending, nor for an exciter: far below its resonance, the housing
+    /// follows the sheet and the signal vanishes, so that the computed velocity would grow without bounds
+    /// with any offset or cut-off of the signal.
+    pub fn gives_velocity(&self) -> bool {
         self.placed && self.gain != 0.0 && self.housing.is_none()
     }
 
-    /// Sensitivity: signal, in the sensor's unit, per velocity (m/s) under the contact, at the complex frequency `s`
-    /// (1/s).
+    /// Sensitivity: sensor signal, in the sensor's unit, per velocity (m/s) under the contact, at the
+    /// complex frequency `s` (1/s).
     pub fn per_velocity(&self, s: c64) -> c64 {
         let closed = self.circuit.map_or(c64::new(1.0, 0.0), |circuit| circuit.admittance(s)) * self.gain;
         let coil = Circuit::reaction(self.circuit.as_ref(), s);
         self.housing.map_or(closed, |housing| closed * housing.transmission(coil, s))
     }
 
-    /// The sensor signal, in the sensor's unit, for a velocity (m/s) under its contact, both at `rate` samples per second. The
-    /// velocity counts as linear between samples.
-    pub fn hear(&self, velocity: &[f64], rate: f64) -> Vec<f64> {
+    /// The sensor signal, in the sensor's unit, for a velocity (m/s) under the sensor's contact, both at
+    /// `rate` samples per second. The velocity is taken as linear between samples.
+    pub fn signal(&self, velocity: &[f64], rate: f64) -> Vec<f64> {
         if let Some(housing) = &self.housing {
-            return Suspension::new(housing, self.circuit, self.gain, rate).hear(velocity);
+            return Suspension::new(housing, self.circuit, self.gain, rate).signal(velocity);
         }
         let Some(Circuit { resistance, inductance, .. }) = self.circuit else {
             return velocity.iter().map(|v| self.gain * v).collect();
@@ -106,11 +110,11 @@ impl Sensor {
         velocity.iter().map(step).collect()
     }
 
-    /// The velocities (m/s) under the contact, computed back from sensor signals at `rate` samples per second whose frequencies reach
-    /// `top` (Hz), at most 0.42 of the rate. Signals may be cut off at their ends; they are not taken as zero beyond. `None` for a patch
-    /// or an exciter ([`Sensor::tells_velocity`]).
+    /// The velocities (m/s) under the contact, recovered from sensor signals at `rate` samples per second
+    /// with frequencies up to `top` (Hz), at most 0.42 of the rate. Signals may be cut off at their ends;
+    /// they are not taken as zero beyond. `None` for a patch or an exciter ([`Sensor::gives_velocity`]).
     pub fn velocities(&self, heard: &[Vec<f64>], rate: f64, top: f64) -> Option<Vec<Vec<f64>>> {
-        if !self.tells_velocity() {
+        if !self.gives_velocity() {
             return None;
         }
         let Some(Circuit { resistance, inductance, .. }) = self.circuit else {
@@ -126,8 +130,9 @@ impl Sensor {
     }
 }
 
-/// Weights of one step of the current in an R-L circuit, exact for a voltage that is linear between samples, for
-/// θ = R dt/L: of the current before the step, and of voltage over resistance before and after it.
+/// Weights for one time step of the current in an R-L circuit, for θ = R dt/L: of the current before the
+/// step, and of voltage over resistance before and after it. Exact for a voltage that is linear between
+/// samples.
 fn held(theta: f64) -> [f64; 3] {
     let left = (-theta).exp();
     let mean = -(-theta).exp_m1() / theta;
@@ -147,8 +152,9 @@ pub fn sensors(surface: &Surface) -> Result<Vec<Sensor>, crate::PhysicsError> {
     Ok(all.iter().zip(&surface.actuators).map(|(t, actuator)| Sensor::of(t, &actuator.kind)).collect())
 }
 
-/// Readout weights of sensors for the modes of some responses, in 1/√kg, sensors x modes: the mode shapes averaged over each sensor's
-/// footprint. The velocity that they give, passed through [`Sensor::hear`], is the sensor's signal.
+/// Readout weights of sensors for the modes of modal responses, in 1/√kg, sensors x modes: the mode shapes
+/// averaged over each sensor's footprint. With these weights the responses give the velocity under the
+/// sensor, and [`Sensor::signal`] turns that velocity into the sensor's signal.
 pub fn sensed(sensors: &[Sensor], responses: &ModalResponses) -> Mat<f64> {
     let footprints: Vec<Footprint> = sensors.iter().map(|sensor| sensor.footprint.clone()).collect();
     Footprint::all_weights(&footprints, responses.shapes.as_ref())
@@ -223,7 +229,7 @@ mod tests {
             for hz in [50.0, 200.0, 1000.0] {
                 let tone = |i: usize| TAU * hz * i as f64 / rate;
                 let velocity: Vec<f64> = (0..12_000).map(|i| tone(i).cos()).collect();
-                let heard = sensor.hear(&velocity, rate);
+                let heard = sensor.signal(&velocity, rate);
                 let s = c64::new(0.0, TAU * hz);
                 let closed = s * inductance + resistance;
                 // M s u = (c + k/s)(v - u) + bl j, with the current j = bl (v - u)/(R + Ls) if the coil is closed.
@@ -260,7 +266,7 @@ mod tests {
             for hz in [400.0, 3000.0] {
                 let tone = |i: usize| TAU * hz * i as f64 / rate;
                 let velocity: Vec<f64> = (0..4000).map(|i| tone(i).cos()).collect();
-                let heard = sensor.hear(&velocity, rate);
+                let heard = sensor.signal(&velocity, rate);
                 let factor = sensor.per_velocity(c64::new(0.0, TAU * hz));
                 // As it is, and cut in the middle of a tone.
                 let back = sensor.velocities(&[heard.clone(), heard[2000..].to_vec()], rate, 3600.0).unwrap();

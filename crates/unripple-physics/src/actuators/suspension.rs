@@ -1,32 +1,36 @@
-//! The housing of an exciter from sample to sample, as the motion of the sheet drives it and its coil.
+//! Time-stepping of an exciter's housing, as the motion of the sheet drives the housing and its coil.
 
 use crate::{Circuit, Housing};
 
-/// Terms of the series of an exponential whose argument has a norm of at most 1/2: the next is below 1e-18. With twice this value, sums
-/// stay the same.
+/// Number of terms in the series of a matrix exponential whose argument has a norm of at most 1/2: the next
+/// term is below 1e-18. With twice this value, sums stay the same.
 const TERMS: u32 = 16;
 
-/// Largest number of halvings of that argument: 2^64 times 1/2 is beyond all rates that a surface file can describe.
+/// Largest number of times that the argument of the exponential is halved: 2^64 times 1/2 is beyond all
+/// rates that a surface file can describe.
 const HALVINGS: f64 = 64.0;
 
-/// Number of coordinates: of the spring, the housing and the current, then the velocity of the sheet and its change over a sample.
+/// Number of coordinates: one each for the spring, the housing and the current, then the velocity of the
+/// sheet and its change over a sample.
 const SIZE: usize = 5;
 
 /// A square matrix, coordinates x coordinates.
 type Square = [[f64; SIZE]; SIZE];
 
-/// A housing on its spring, stepped by samples; exact for a velocity of the sheet that is linear between them.
+/// A housing on its spring, advanced sample by sample; exact if the velocity of the sheet is linear between
+/// samples.
 pub(super) struct Suspension {
-    /// From the coordinates at a sample to those at the next. The first three are √(k/M) times the extension of the spring, the
-    /// velocity of the housing, and √(L/M) times the current, all in m/s, so that half of M times the sum of their squares is the energy.
+    /// State-transition matrix from the coordinates at a sample to those at the next. The first three are
+    /// √(k/M) times the extension of the spring, the velocity of the housing, and √(L/M) times the current,
+    /// all in m/s, so that half of M times the sum of their squares is the energy.
     step: Square,
     /// Signal per velocity of the coil relative to the housing, and per coordinate of the current.
     gains: [f64; 2],
 }
 
 impl Suspension {
-    /// A housing whose coil has the electromotive force `gain` (V·s/m) and is open or closed by a circuit, at `rate` samples per
-    /// second.
+    /// A housing whose coil has the electromotive force `gain` (V·s/m) and is open, or closed by a circuit,
+    /// at `rate` samples per second.
     pub(super) fn new(housing: &Housing, circuit: Option<Circuit>, gain: f64, rate: f64) -> Self {
         let Housing { mass, damping, stiffness } = *housing;
         let spring = (stiffness / mass).sqrt();
@@ -53,9 +57,9 @@ impl Suspension {
         Self { step: exponential(&rates.map(|row| row.map(|x| x / rate))), gains }
     }
 
-    /// The signal that a velocity (m/s) of the sheet causes, sample by sample, from rest: the voltage (V) of an open coil, the current
-    /// (A) of a closed one.
-    pub(super) fn hear(&self, velocity: &[f64]) -> Vec<f64> {
+    /// The signal that a velocity (m/s) of the sheet causes, sample by sample, starting from rest: the
+    /// voltage (V) of an open coil, or the current (A) of a closed one.
+    pub(super) fn signal(&self, velocity: &[f64]) -> Vec<f64> {
         let (mut state, mut last) = ([0.0_f64; 3], 0.0_f64);
         let one = |now: &f64| {
             let before = [state[0], state[1], state[2], last, now - last];
@@ -69,7 +73,8 @@ impl Suspension {
     }
 }
 
-/// The exponential of a matrix: its series for a part of the matrix, 2^n times smaller, squared n times.
+/// The exponential of a matrix by scaling and squaring: the power series for the matrix divided by 2^n,
+/// squared n times.
 fn exponential(matrix: &Square) -> Square {
     let size = |row: &[f64; SIZE]| row.iter().map(|x| x.abs()).sum::<f64>();
     let norm = matrix.iter().map(size).fold(0.0, f64::max);
@@ -100,7 +105,7 @@ mod tests {
         for (hz, quality) in [(150.0, 3.0), (150.0, 0.5), (20.0, 0.2), (9e3, 30.0), (1e5, 1.0)] {
             let (mass, omega) = (0.04, TAU * hz);
             let housing = Housing { mass, damping: mass * omega / quality, stiffness: mass * omega * omega };
-            let heard = Suspension::new(&housing, None, 2.5, rate).hear(&[1.0; 400]);
+            let heard = Suspension::new(&housing, None, 2.5, rate).signal(&[1.0; 400]);
             // The relative velocity obeys r'' + (ω/Q) r' + ω² r = v''. The velocity v rises to 1 over the first sample, so that v'' is an
             // impulse at its beginning and the opposite one at its end.
             let pole = Pole::new(omega, 0.5 * omega / quality);

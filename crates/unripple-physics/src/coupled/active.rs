@@ -1,39 +1,42 @@
-//! Reduced coordinates (component-mode synthesis): low modes are kept, high ones condensed to the combinations that the loads
-//! excite.
+//! Reduced coordinates (component-mode synthesis): low modes are kept, high modes are condensed to the
+//! combinations that the loads excite.
 
 use super::basis::Shape;
 use super::span::Span;
 use unripple_linalg::{Mat, MatRef, product};
 
-/// Number of times that the loads' combinations of high modes are divided by their squared frequencies: each adds a
-/// fourth power of (ω/ω_m) to the order. With twice this value, twice as many coordinates are kept.
+/// Number of times that the combinations of high modes excited by the loads are divided by the modes'
+/// squared frequencies: each time adds a fourth power of (ω/ω_m) to the order of accuracy. With twice this
+/// value, twice as many coordinates are kept.
 const DEPTH: usize = 4;
 
-/// A combination is left out if less than this share of it is linearly independent of the others: the rest would be
-/// rounding. Larger, combinations that matter would be lost.
+/// Least share of a combination that must be linearly independent of the others for it to be kept: with
+/// less, what is independent is only rounding error. Larger, combinations that matter would be lost.
 const OLD: f64 = 1e-9;
 
-/// The coordinates that couple to the loads: single modes up to some frequency, combinations of modes above.
+/// The coordinates of the sheet that couple to the loads: single modes up to a limiting frequency,
+/// combinations of modes above it.
 #[derive(Debug)]
 pub(super) struct Active {
-    /// Modes x coordinates, the columns orthonormal.
+    /// Coefficients of the modes in each coordinate, modes x coordinates, with orthonormal columns.
     pub map: Mat<f64>,
     /// Stiffness over mass, coordinates x coordinates, in 1/s².
     pub stiffness: Mat<f64>,
     /// Damping 2Σ, coordinates x coordinates, in 1/s.
     pub damping: Mat<f64>,
-    /// Weights of the loads' footprints, loads x coordinates.
-    pub felt: Mat<f64>,
+    /// Mode shapes averaged over the loads' footprints, loads x coordinates.
+    pub at_loads: Mat<f64>,
 }
 
 impl Active {
-    /// The coordinates for shapes; those above the angular frequency `dynamic` (rad/s) only in the combinations that the loads
-    /// excite. `felt` holds the weights of the loads' footprints, loads x modes.
-    pub fn of(shapes: &[Shape], felt: MatRef<'_, f64>, dynamic: f64) -> Self {
+    /// The coordinates for the combinations `shapes`. Above the angular frequency `dynamic` (rad/s), only
+    /// the combinations that the loads excite are kept. `at_loads` holds the mode shapes averaged over the
+    /// loads' footprints, loads x modes.
+    pub fn of(shapes: &[Shape], at_loads: MatRef<'_, f64>, dynamic: f64) -> Self {
         let (low, high): (Vec<&Shape>, Vec<&Shape>) = shapes.iter().partition(|s| s.pole.omega <= dynamic);
-        let vectors = moved(&high, felt);
+        let vectors = moved(&high, at_loads);
         let count = low.len() + vectors.len();
-        let mut map = Mat::zeros(felt.ncols(), count);
+        let mut map = Mat::zeros(at_loads.ncols(), count);
         let (mut stiffness, mut damping) = (Mat::zeros(count, count), Mat::zeros(count, count));
         for (i, shape) in low.iter().enumerate() {
             shape.parts.iter().for_each(|(mode, part)| map[(*mode, i)] = *part);
@@ -52,14 +55,15 @@ impl Active {
                 damping[(low.len() + i, low.len() + j)] = sum(|s| 2.0 * s.pole.sigma);
             }
         }
-        let felt = product(felt, map.as_ref());
-        Self { map, stiffness, damping, felt }
+        let at_loads = product(at_loads, map.as_ref());
+        Self { map, stiffness, damping, at_loads }
     }
 }
 
-/// Orthonormal combinations of high shapes that span Ω^{-2k} Wᵀ for k = 1 … DEPTH; all shapes if there are no more of them.
-fn moved(high: &[&Shape], felt: MatRef<'_, f64>) -> Vec<Vec<f64>> {
-    if high.len() <= DEPTH * felt.nrows() {
+/// Orthonormal combinations of high shapes that span Ω^{-2k} Wᵀ for k = 1 … DEPTH; all shapes if they are
+/// not more numerous.
+fn moved(high: &[&Shape], at_loads: MatRef<'_, f64>) -> Vec<Vec<f64>> {
+    if high.len() <= DEPTH * at_loads.nrows() {
         let unit = |i: usize| (0..high.len()).map(|j| f64::from(u8::from(i == j))).collect();
         return (0..high.len()).map(unit).collect();
     }
@@ -68,8 +72,8 @@ fn moved(high: &[&Shape], felt: MatRef<'_, f64>) -> Vec<Vec<f64>> {
         vector.iter().zip(high).map(|(v, shape)| v * (lowest / shape.pole.omega).powi(2)).collect()
     };
     let mut span = Span::default();
-    let mut block: Vec<Vec<f64>> = (0..felt.nrows())
-        .map(|load| high.iter().map(|shape| shape.weight(felt.row(load))).collect())
+    let mut block: Vec<Vec<f64>> = (0..at_loads.nrows())
+        .map(|load| high.iter().map(|shape| shape.weight(at_loads.row(load))).collect())
         .collect();
     for _ in 0..DEPTH {
         let before = span.vectors.len();

@@ -5,8 +5,9 @@ use crate::Footprint;
 use unripple_linalg::{Lu, Mat, c64};
 
 impl Loaded {
-    /// Transfer function of the loaded sheet: velocity (m/s) over a footprint per unit of the drive of the transducer with this
-    /// index, at the complex frequency `s` (1/s); s = jω for a steady tone.
+    /// Transfer function of the loaded sheet: velocity (m/s) averaged over the footprint `at` per unit of
+    /// drive of the transducer with this index, at the complex frequency `s` (1/s); s = jω for a steady
+    /// tone.
     ///
     /// By Woodbury's identity from the admittances Y of the sheet without loads: Y_ba - Y_bL (1 + Z Y_LL)⁻¹ Z Y_La.
     pub fn admittance(&self, transducer: usize, at: &Footprint, s: c64) -> c64 {
@@ -19,7 +20,7 @@ impl Loaded {
                 let force = self.loads[load]
                     .circuit
                     .map_or(c64::new(0.0, 0.0), |circuit| circuit.admittance(s) * circuit.force_constant);
-                self.felt.row(load).iter().map(|w| force * through * *w).collect()
+                self.at_loads.row(load).iter().map(|w| force * through * *w).collect()
             }
             None => self.driven.row(transducer).iter().map(|w| through * *w).collect(),
         };
@@ -31,10 +32,10 @@ impl Loaded {
             return direct;
         }
         let dot = |j: usize, other: &[c64]| -> c64 {
-            self.felt.row(j).iter().zip(other).map(|(w, v)| v * *w).sum()
+            self.at_loads.row(j).iter().zip(other).map(|(w, v)| v * *w).sum()
         };
         let answers: Vec<Vec<c64>> = (0..count)
-            .map(|k| self.felt.row(k).iter().zip(&mobility).map(|(w, y)| y * *w).collect())
+            .map(|k| self.at_loads.row(k).iter().zip(&mobility).map(|(w, y)| y * *w).collect())
             .collect();
         let impedances: Vec<c64> = self.loads.iter().map(|load| load.impedance(s)).collect();
         let system = Mat::from_fn(count, count, |j, k| {

@@ -1,39 +1,42 @@
-//! Modes of equal frequency combined into those that couple to loads and those that do not.
+//! Combines modes of equal frequency into those that couple to loads and those that do not.
 
 use super::span::Span;
 use unripple_core::Pole;
 use unripple_linalg::MatRef;
 
-/// Modes whose frequencies and decay rates differ by less than this share count as degenerate: some hundred rounding
-/// errors. Larger, modes of slightly different frequencies would count as degenerate.
+/// Modes whose frequencies and decay rates differ by less than this relative amount count as degenerate: it
+/// is some hundred rounding errors. Larger, modes of slightly different frequencies would count as
+/// degenerate.
 const SAME: f64 = 1e-13;
 
-/// A mode whose weight at the loads is less than this share of the largest does not couple to them: it is rounding of its
-/// shape. Larger, modes that have a node near the load would lose their damping by it.
+/// A mode whose weight at the loads is less than this share of the largest weight does not couple to the
+/// loads: such a weight is rounding error of the mode shape. Larger, modes that have a node near the load
+/// would lose the damping by the load.
 const UNFELT: f64 = 1e-12;
 
 /// A normalised combination of modes of one frequency.
 #[derive(Clone, Debug)]
 pub(super) struct Shape {
-    /// Pole of the combination without the loads.
+    /// Pole of the combination on the sheet without loads.
     pub pole: Pole,
     /// Indices of modes and their coefficients, whose squares sum to 1.
     pub parts: Vec<(usize, f64)>,
 }
 
 impl Shape {
-    /// Weight of the combination at a footprint, computed from the modes' weights there.
+    /// Value of the combination averaged over a footprint, from the modes' averages (`row`) over that
+    /// footprint.
     pub fn weight(&self, row: unripple_linalg::RowRef<'_, f64>) -> f64 {
         self.parts.iter().map(|(mode, part)| part * row[*mode]).sum()
     }
 }
 
-/// Splits modes into those that couple to the loads, and those that do not and keep their poles.
+/// Splits modes into those that couple to the loads, and those that do not and therefore keep their poles.
 ///
 /// Of several modes of one frequency (a square has many), at most as many couple to the loads as there are loads: the others are
-/// combinations that vanish at the loads' footprints. `felt` holds the weights of the loads' footprints, loads x modes.
-pub(super) fn split(poles: &[Pole], felt: MatRef<'_, f64>) -> (Vec<Shape>, Vec<Shape>) {
-    let most = (0..poles.len()).map(|m| largest(felt, m)).fold(0.0, f64::max);
+/// combinations that vanish at the loads' footprints. `at_loads` holds the weights of the loads' footprints, loads x modes.
+pub(super) fn split(poles: &[Pole], at_loads: MatRef<'_, f64>) -> (Vec<Shape>, Vec<Shape>) {
+    let most = (0..poles.len()).map(|m| largest(at_loads, m)).fold(0.0, f64::max);
     let (mut active, mut passive) = (Vec::new(), Vec::new());
     let mut first = 0;
     while first < poles.len() {
@@ -43,8 +46,8 @@ pub(super) fn split(poles: &[Pole], felt: MatRef<'_, f64>) -> (Vec<Shape>, Vec<S
             parts: vector.iter().enumerate().map(|(i, part)| (first + i, *part)).collect(),
         };
         let mut span = Span::default();
-        for load in 0..felt.nrows() {
-            let row: Vec<f64> = (first..end).map(|m| felt[(load, m)]).collect();
+        for load in 0..at_loads.nrows() {
+            let row: Vec<f64> = (first..end).map(|m| at_loads[(load, m)]).collect();
             if row.iter().any(|w| w.abs() > UNFELT * most) {
                 span.add(row, UNFELT);
             }
@@ -62,8 +65,8 @@ pub(super) fn split(poles: &[Pole], felt: MatRef<'_, f64>) -> (Vec<Shape>, Vec<S
     (active, passive)
 }
 
-fn largest(felt: MatRef<'_, f64>, mode: usize) -> f64 {
-    felt.col(mode).iter().fold(0.0, |most, w| w.abs().max(most))
+fn largest(at_loads: MatRef<'_, f64>, mode: usize) -> f64 {
+    at_loads.col(mode).iter().fold(0.0, |most, w| w.abs().max(most))
 }
 
 fn same(a: Pole, b: Pole) -> bool {
@@ -79,11 +82,11 @@ mod tests {
     #[test]
     fn one_load_is_felt_by_one_of_each_frequency() {
         let poles = [10.0, 20.0, 20.0, 20.0, 30.0].map(|omega| Pole::new(omega, 1.0));
-        let felt = mat![[1.0, 0.5, -0.3, 0.1, 0.0]];
-        let (active, passive) = split(&poles, felt.as_ref());
+        let at_loads = mat![[1.0, 0.5, -0.3, 0.1, 0.0]];
+        let (active, passive) = split(&poles, at_loads.as_ref());
         assert_eq!(active.iter().map(|s| s.pole.omega).collect::<Vec<_>>(), [10.0, 20.0]);
         assert_eq!(passive.iter().map(|s| s.pole.omega).collect::<Vec<_>>(), [20.0, 20.0, 30.0]);
-        assert!(passive.iter().all(|s| s.weight(felt.row(0)).abs() < 1e-15));
-        assert!((active[1].weight(felt.row(0)) - 0.35f64.sqrt()).abs() < 1e-15);
+        assert!(passive.iter().all(|s| s.weight(at_loads.row(0)).abs() < 1e-15));
+        assert!((active[1].weight(at_loads.row(0)) - 0.35f64.sqrt()).abs() < 1e-15);
     }
 }

@@ -1,41 +1,42 @@
-//! Modes of the sheet and housings on it as the coordinates of one system.
+//! Modes of the sheet and the housings of exciters as the coordinates of one system.
 
 use super::Loaded;
 use crate::Load;
 use unripple_core::Pole;
 use unripple_linalg::Mat;
 
-/// A loaded sheet in coordinates among which no load has a housing: the modes of the sheet, then the housings that something ties to
-/// it.
+/// A loaded sheet in coordinates that include its housings: the modes of the sheet, then the housings that
+/// a spring, damper or coil connects to it. No load then has a housing of its own.
 ///
 /// The coordinate of a housing of mass M is √M times its displacement. It has unit mass and neither stiffness nor damping of its own,
 /// like a mode of frequency 0, and moves nothing of the sheet. A load between contact and housing has the weights of the contact and
 /// -1/√M: its motion is the difference of the two, and its force acts on both.
 #[derive(Debug)]
 pub(super) struct Coordinates {
-    /// Poles of the sheet's modes, then those of the housings, which are 0.
+    /// Poles of the sheet's modes, then those of the housings, whose frequency and decay rate are 0.
     pub poles: Vec<Pole>,
-    /// Loads without housings, of one or two of which each load on the sheet consists.
+    /// Loads without housings: each load on the sheet is split into one or two of them.
     pub loads: Vec<Load>,
-    /// Weights of these loads, loads x coordinates.
-    pub felt: Mat<f64>,
-    /// Forces on the coordinates per unit of drive, transducers x coordinates; of a coil on a voltage, per coil current.
+    /// Weights of the coordinates at these loads, loads x coordinates.
+    pub at_loads: Mat<f64>,
+    /// Forces on the coordinates per unit of drive, transducers x coordinates; per coil current for a coil
+    /// driven by a voltage.
     pub driven: Mat<f64>,
-    /// Index of the load whose coil each transducer drives by its voltage.
+    /// For each transducer that drives a coil by its voltage, the index of the load that has the coil.
     pub coils: Vec<Option<usize>>,
 }
 
 /// A load without a housing.
 struct Part {
     load: Load,
-    /// Index of the whole load.
+    /// Index of the load on the sheet from which this part was split.
     whole: usize,
-    /// Index of the coordinate of the housing that it acts against; `None` for the ground.
+    /// Index of the coordinate of the housing that this part acts against; `None` for the ground.
     against: Option<usize>,
 }
 
 impl Loaded {
-    /// The sheet with its loads in coordinates that include their housings.
+    /// The loaded sheet in coordinates that include the housings of its loads.
     pub(super) fn coordinates(&self) -> Coordinates {
         let modes = self.poles.len();
         let (mut parts, mut last, mut weights) = (Vec::new(), Vec::new(), Vec::new());
@@ -50,8 +51,8 @@ impl Loaded {
             last.push(parts.len() - 1);
         }
         let count = modes + weights.len();
-        let felt = Mat::from_fn(parts.len(), count, |p, m| match parts[p].against {
-            _ if m < modes => self.felt[(parts[p].whole, m)],
+        let at_loads = Mat::from_fn(parts.len(), count, |p, m| match parts[p].against {
+            _ if m < modes => self.at_loads[(parts[p].whole, m)],
             Some(housing) if housing == m => weights[m - modes],
             _ => 0.0,
         });
@@ -66,7 +67,7 @@ impl Loaded {
         let coils = (0..self.transducers.len()).map(|t| self.driven_coil(t).map(|load| last[load]));
         Coordinates {
             poles: poles.collect(),
-            felt,
+            at_loads,
             driven,
             coils: coils.collect(),
             loads: parts.into_iter().map(|part| part.load).collect(),

@@ -39,14 +39,15 @@ pub struct Loaded {
     shapes: Arc<dyn Shapes>,
     poles: Vec<Pole>,
     transducers: Vec<Transducer>,
-    /// Weights of the transducers' footprints times their gains, transducers x modes.
+    /// Mode shapes averaged over the transducers' footprints times the transducers' gains, transducers x
+    /// modes.
     driven: Mat<f64>,
-    /// Index into `loads` of each transducer's own load, if it has one.
+    /// Index into `loads` of each transducer's own load; `None` for a transducer without a load.
     own: Vec<Option<usize>>,
     /// All loads: the transducers' own, then the fingers.
     loads: Vec<Load>,
-    /// Weights of the loads' footprints, loads x modes.
-    felt: Mat<f64>,
+    /// Mode shapes averaged over the loads' footprints, loads x modes.
+    at_loads: Mat<f64>,
 }
 
 impl Loaded {
@@ -83,7 +84,7 @@ impl Loaded {
             driven.row_mut(row).iter_mut().for_each(|weight| *weight *= transducer.gain);
         }
         let places: Vec<Footprint> = loads.iter().map(|load| load.footprint.clone()).collect();
-        let felt = Footprint::all_weights(&places, shapes.as_ref());
+        let at_loads = Footprint::all_weights(&places, shapes.as_ref());
         Ok(Self {
             shapes,
             poles: poles.to_vec(),
@@ -91,11 +92,12 @@ impl Loaded {
             driven,
             own,
             loads,
-            felt,
+            at_loads,
         })
     }
 
-    /// Adds the residual compliance at the loads of all modes of wavenumbers above `above` (rad/m), which were not computed.
+    /// Adds the residual compliance at the loads of all modes with wavenumbers above `above` (rad/m), which
+    /// were not computed.
     ///
     /// The compliance is the static deflection of an infinite sheet of this `medium`, without its part of wavenumbers below `above`, with
     /// its inertia to first order. `decay` gives the decay rate (1/s) for a frequency (rad/s) and wavenumber (rad/m). Contacts
@@ -125,12 +127,13 @@ impl Loaded {
         (&self.poles, &self.shapes)
     }
 
-    /// Whether there is a load on the sheet.
+    /// Whether any load (finger, mass, coil or housing) acts on the sheet.
     pub fn is_loaded(&self) -> bool {
         !self.loads.is_empty()
     }
 
-    /// Input weights of the transducers for the modes without loads (modal force per unit of drive), transducers x modes.
+    /// Modal force per unit of drive (per coil current for a coil driven by a voltage) of each transducer, for
+    /// the modes of the sheet without loads, transducers x modes.
     pub fn input(&self) -> &Mat<f64> {
         &self.driven
     }

@@ -13,34 +13,39 @@ use std::sync::Arc;
 use unripple_core::{Observed, Pole, Shapes};
 use unripple_linalg::{Mat, c64, product};
 
-/// A part of an oscillation below this share of its largest part is rounding and is left out. Larger, weak parts that matter
-/// at nodes of the others would be lost.
+/// A part of an oscillation below this share of its largest part is rounding error and is left out. Larger,
+/// weak parts that matter at nodes of the others would be lost.
 const VANISHED: f64 = 1e-12;
 
-/// Number of bytes for each pair of coupled modes: the state matrix of twice as many rows, its decomposition, complex eigenvectors
-/// and their inverse. Doubled, 0.7 times as many modes are allowed.
+/// Number of bytes needed for each pair of coupled modes: the state matrix with twice as many rows as
+/// modes, its decomposition, complex eigenvectors and their inverse. Doubled, 0.7 times as many modes are
+/// allowed.
 const BYTES_PER_PAIR: f64 = 320.0;
 
-/// Number of bytes for each pair of a mode that does not couple to the loads and any mode: its readout, twice.
+/// Number of bytes needed for each pair of a mode that does not couple to the loads and any other mode: two
+/// copies of its readout weight.
 const BYTES_PER_READOUT: f64 = 16.0;
 
-/// Memory that coupled modes may take, in bytes, as much as the modes of the sheet. Doubled, 1.4 times as many modes are allowed.
+/// Largest memory for coupled modes, in bytes, equal to the limit for the modes of the sheet. Doubled, 1.4
+/// times as many modes are allowed.
 const MEMORY: f64 = 4.0 * GIB;
 
 /// Bytes of a GiB, 2³⁰ by definition.
 const GIB: f64 = (1u64 << 30) as f64;
 
-/// The decaying oscillations of a loaded sheet, with real input and readout weights, as modal responses need them.
+/// The decaying oscillations of a loaded sheet, with real input and readout weights, in the form of modal
+/// responses.
 #[derive(Clone, Debug)]
 pub struct Oscillations {
-    /// The poles, in order of ascending frequency; a mode whose shape is complex is written as up to four oscillations of real weights.
+    /// The poles, in order of ascending frequency; a mode with a complex shape is represented by up to four
+    /// oscillations with real weights.
     pub poles: Vec<Pole>,
-    /// Input weights, transducers x oscillations.
+    /// Input weights per unit of drive, transducers x oscillations.
     pub input: Mat<f64>,
     /// Readout weights at any point, in 1/√kg.
     pub shapes: Arc<dyn Shapes>,
-    /// The modes of the loaded sheet, one pole for each, in order of ascending natural frequency. Motion that does not oscillate (real
-    /// poles) is none of them.
+    /// The poles of the modes of the loaded sheet, one per mode, in order of ascending natural frequency.
+    /// Real poles, whose motion does not oscillate, are not included.
     pub modes: Vec<Pole>,
 }
 
@@ -51,19 +56,19 @@ struct Part {
     input: Vec<f64>,
 }
 
-/// Oscillations while they are gathered.
+/// The list of oscillations while it is being built.
 #[derive(Default)]
 struct Parts {
     parts: Vec<Part>,
-    /// Readouts, by modes.
+    /// Readout weights as combinations of modes, one list of coefficients per column.
     columns: Vec<Vec<f64>>,
-    /// Poles of the modes, one for each.
+    /// Poles of the modes, one per mode.
     modes: Vec<Pole>,
 }
 
 impl Loaded {
-    /// The decaying oscillations of the sheet with all loads. Modes up to `dynamic_hz` (Hz) are treated one by one, those above
-    /// only in the combinations that the loads excite.
+    /// The decaying oscillations of the sheet with all loads. Modes up to `dynamic_hz` (Hz) are treated one
+    /// by one, higher modes only in the combinations that the loads excite.
     ///
     /// Oscillations of a frequency |s|/2π outside `band` (Hz) are left out. A complex mode with poles s = -σ ± jω_d has the
     /// displacement 2Re(D e^{st}), D = shape · input. It is written as ω 2Re(D) times an oscillation of
@@ -78,7 +83,7 @@ impl Loaded {
     /// problem fails.
     pub fn oscillations(&self, dynamic_hz: f64, band: [f64; 2]) -> Result<Oscillations, PhysicsError> {
         let system = self.coordinates();
-        let (active, passive) = split(&system.poles, system.felt.as_ref());
+        let (active, passive) = split(&system.poles, system.at_loads.as_ref());
         let coupled = active.iter().filter(|shape| shape.pole.omega <= TAU * dynamic_hz).count();
         guard(coupled, passive.len() * system.poles.len(), band[1])?;
         Observed::here().part(|| format!("{coupled} modes coupled to {} loads", system.loads.len()));
@@ -89,7 +94,7 @@ impl Loaded {
         for shape in passive.iter().filter(|shape| within(shape.pole.omega)) {
             parts.alone(shape, &system);
         }
-        let active = Active::of(&active, system.felt.as_ref(), TAU * dynamic_hz);
+        let active = Active::of(&active, system.at_loads.as_ref(), TAU * dynamic_hz);
         let modes = Conservative::of(&active, &system.loads, dynamic_hz)?;
         let drives = system.drives(&active, &modes);
         let kept = parts.columns.len();
@@ -120,15 +125,16 @@ impl Coordinates {
             // A coil of negligible inductance gives a force at once; otherwise its current has to build up first.
             let direct = self.loads[load].direct_coil_force();
             for m in 0..forces.ncols() {
-                forces[(drive, m)] = direct * modes.felt[(load, m)];
+                forces[(drive, m)] = direct * modes.at_loads[(load, m)];
             }
         }
         Drives { forces, coils: self.coils.clone() }
     }
 }
 
-/// Refuses loads on more modes than memory holds, before any of it is allocated: `coupled` modes, and `readouts` pairs of a mode
-/// that does not couple and any mode. `max_hz` (Hz) is the top of the band.
+/// Refuses a problem that would not fit into memory, before any memory is allocated: `coupled` modes that
+/// couple to loads, and `readouts` pairs of a mode that does not couple and any mode. `max_hz` (Hz) is the
+/// top of the band.
 fn guard(coupled: usize, readouts: usize, max_hz: f64) -> Result<(), PhysicsError> {
     let needed = BYTES_PER_PAIR * (coupled as f64).powi(2) + BYTES_PER_READOUT * readouts as f64;
     if needed <= MEMORY {
@@ -145,7 +151,7 @@ fn guard(coupled: usize, readouts: usize, max_hz: f64) -> Result<(), PhysicsErro
 }
 
 impl Parts {
-    /// Adds an oscillation that does not couple to the loads.
+    /// Adds the oscillation of a mode that does not couple to the loads.
     fn alone(&mut self, shape: &Shape, system: &Coordinates) {
         let mut column = vec![0.0; system.poles.len()];
         shape.parts.iter().for_each(|(mode, part)| column[*mode] = *part);
@@ -217,8 +223,9 @@ impl Parts {
         }
     }
 
-    /// All oscillations in order of frequency. Columns below `kept` are coefficients of the modes, the others of the columns of `basis`
-    /// (modes x coordinates); of both, what is beyond the modes of the sheet moves nothing of it.
+    /// All oscillations in order of frequency. Columns with an index below `kept` are coefficients of the
+    /// modes, the others coefficients of the columns of `basis` (modes x coordinates). Rows beyond the
+    /// modes of the sheet are left out, since housings do not move the sheet's points.
     fn whole(mut self, loaded: &Loaded, kept: usize, basis: &Mat<f64>) -> Oscillations {
         let made = Mat::from_fn(basis.ncols(), self.columns.len() - kept, |i, c| self.columns[kept + c][i]);
         let made = basis * made;

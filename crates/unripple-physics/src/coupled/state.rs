@@ -5,12 +5,12 @@ use crate::loads::Circuit;
 use crate::{Load, PhysicsError};
 use unripple_linalg::{General, Lu, Mat, MatRef, c64, general};
 
-/// Off-diagonal damping below this share of the largest on the diagonal counts as none: some hundred
+/// Off-diagonal damping below this share of the largest diagonal element counts as zero: it is some hundred
 /// rounding errors. Larger, weakly coupled modes would count as normal modes.
 const PROPORTIONAL: f64 = 1e-13;
 
-/// An exponential e^{st} of the coupled system: displacement Σ_m shape_m ψ_m · input_a · e^{st} per unit impulse of drive.
-/// Of a complex pair only the one of positive frequency is kept, since the other is its conjugate.
+/// One exponential e^{st} of the coupled system: displacement Σ_m shape_m ψ_m · input_a · e^{st} per unit
+/// impulse of drive. Of a pair of complex conjugates only the one with positive frequency is stored.
 #[derive(Clone, Debug)]
 pub(super) struct Root {
     /// Complex frequency s, in 1/s.
@@ -26,11 +26,11 @@ pub(super) struct Root {
 pub(super) struct Drives {
     /// Forces per unit of drive, drives x conservative modes.
     pub forces: Mat<f64>,
-    /// Index of the load whose coil each drive is the voltage of.
+    /// For each drive that is a coil's voltage, the index of the load that has the coil.
     pub coils: Vec<Option<usize>>,
 }
 
-/// Whether damping does not couple the conservative modes, so that each decays by itself.
+/// Whether damping does not couple the conservative modes, so that each mode decays on its own.
 pub(super) fn proportional(modes: &Conservative, loads: &[Load]) -> bool {
     let damping = modes.damping.as_ref();
     let count = damping.nrows();
@@ -84,8 +84,8 @@ fn matrix(modes: &Conservative, coils: &[(usize, Circuit)]) -> Mat<f64> {
         matrix[(row, row)] = -circuit.resistance / circuit.inductance;
         let coupling = circuit.force_constant / circuit.inductance.sqrt();
         for i in 0..count {
-            matrix[(count + i, row)] = coupling * modes.felt[(*load, i)];
-            matrix[(row, count + i)] = -coupling * modes.felt[(*load, i)];
+            matrix[(count + i, row)] = coupling * modes.at_loads[(*load, i)];
+            matrix[(row, count + i)] = -coupling * modes.at_loads[(*load, i)];
         }
     }
     matrix

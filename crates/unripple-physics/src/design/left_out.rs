@@ -1,13 +1,13 @@
-//! What the closed forms of a design leave out on a surface: masses, coils, housings, patches and contacts of its actuators, an uneven
-//! sheet.
+//! The note on what the closed forms of a design ignore on a surface: masses, coils, housings, patches and
+//! contacts of its actuators, an uneven sheet.
 
 use super::Note;
 use super::digits::rounded;
 use super::ground::Ground;
 use unripple_core::{Actuator, ActuatorKind, CoilDrive, Surface, VoiceCoil};
 
-/// What the closed forms leave out, and which figures do not; `None` for ideal forces at points of a uniform sheet, of which nothing is left
-/// out.
+/// The note on what the closed forms ignore, and on which figures do include it; `None` for ideal forces at
+/// points of a uniform sheet, where nothing is ignored.
 pub(super) fn left_out(ground: &Ground<'_>) -> Option<Note> {
     let surface = ground.surface;
     let parts = [
@@ -36,7 +36,7 @@ pub(super) fn left_out(ground: &Ground<'_>) -> Option<Note> {
     Some(Note { topic: "left out".into(), text })
 }
 
-/// Masses that move with the sheet at its actuators.
+/// Text on the masses that move with the sheet at its actuators.
 fn masses(surface: &Surface) -> Option<String> {
     let mass = |actuator: &Actuator| match (actuator.kind, actuator.kind.coil()) {
         (ActuatorKind::Piezo { mass, .. }, _) => mass,
@@ -46,7 +46,8 @@ fn masses(surface: &Surface) -> Option<String> {
     (!found.is_empty()).then(|| format!("moving masses of {} mg ({})", range(&found, 1e6), actuators(&found)))
 }
 
-/// Damping and inductance of coils that are driven by a voltage; a current is what it is, whatever the coil.
+/// Text on the damping and inductance of coils driven by a voltage; they have no effect with a current
+/// source.
 fn coils(surface: &Surface) -> Option<String> {
     let held = |actuator: &Actuator| actuator.kind.coil().filter(|coil| coil.driven_by == CoilDrive::Voltage);
     let of_coil = |coil: VoiceCoil| coil.force_constant * coil.force_constant / coil.resistance;
@@ -62,7 +63,7 @@ fn coils(surface: &Surface) -> Option<String> {
     Some(format!("{text} of coils driven by a voltage ({})", actuators(&damping)))
 }
 
-/// Housings of exciters, of which a closed form knows neither the resonance nor the mass.
+/// Text on the housings of exciters, whose resonance and mass the closed forms ignore.
 fn housings(surface: &Surface) -> Option<String> {
     let found = all(surface, |actuator| match actuator.kind {
         ActuatorKind::Exciter { resonance, .. } => resonance,
@@ -73,14 +74,14 @@ fn housings(surface: &Surface) -> Option<String> {
     })
 }
 
-/// Patches, which bend the sheet instead of pushing it.
+/// Text on patches, which bend the sheet instead of pushing it.
 fn patches(surface: &Surface) -> Option<String> {
     let found =
         all(surface, |actuator| f64::from(u8::from(matches!(actuator.kind, ActuatorKind::Piezo { .. }))));
     (!found.is_empty()).then(|| format!("piezo patches, which act by moments ({})", actuators(&found)))
 }
 
-/// Discs over which forces are spread, so that short waves are driven less.
+/// Text on the discs over which forces are spread, so that short waves are driven less.
 fn contacts(surface: &Surface) -> Option<String> {
     let radius = |actuator: &Actuator| match actuator.kind {
         ActuatorKind::Force | ActuatorKind::MovingMagnet { .. } | ActuatorKind::Exciter { .. } => {
@@ -93,26 +94,26 @@ fn contacts(surface: &Surface) -> Option<String> {
         .then(|| format!("contact discs of {} mm radius ({})", range(&found, 1e3), actuators(&found)))
 }
 
-/// What makes the sheet uneven.
+/// Text on what makes the sheet uneven.
 fn uneven(surface: &Surface) -> Option<String> {
-    let even = surface.sheet.uneven.is_nothing();
+    let even = surface.sheet.uneven.is_uniform();
     (!even).then(|| {
         "the grain of the sheet, its profiles and what is fixed to it (which the number of modes, where counted, includes)"
             .into()
     })
 }
 
-/// A property of every actuator that has it: positive values.
+/// The values of a property for all actuators for which it is positive.
 fn all(surface: &Surface, of: impl Fn(&Actuator) -> f64) -> Vec<f64> {
     surface.actuators.iter().map(of).filter(|value| *value > 0.0).collect()
 }
 
-/// How many actuators these are.
+/// Text for a number of actuators: how many values there are.
 fn actuators(values: &[f64]) -> String {
     if values.len() == 1 { "1 actuator".into() } else { format!("{} actuators", values.len()) }
 }
 
-/// The one value, or the least and the greatest, times `unit`, with three digits.
+/// Text for values times `unit`, with three digits: the single value, or the least and the greatest.
 fn range(values: &[f64], unit: f64) -> String {
     let ends = (f64::INFINITY, 0.0);
     let (low, high) = values.iter().fold(ends, |(l, h): (f64, f64), value| (l.min(*value), h.max(*value)));

@@ -1,4 +1,4 @@
-//! Notes on the figures of a design: how far they reach, and what they leave out.
+//! Notes on the figures of a design: their limits, and what they leave out.
 
 use super::ground::Ground;
 use super::left_out::left_out;
@@ -15,7 +15,7 @@ pub(super) fn notes(ground: &Ground<'_>, design: &Design) -> Vec<Note> {
     notes
 }
 
-/// Which of the contrasts to trust, and why they differ.
+/// The note on which of the predicted contrasts to trust, and why they differ.
 fn which(ground: &Ground<'_>, design: &Design) -> Note {
     let (refined, plain) = (design.contrast_predicted, design.contrast_plain);
     let statistics =
@@ -36,7 +36,8 @@ fn which(ground: &Ground<'_>, design: &Design) -> Note {
     Note { topic: "which contrast".into(), text }
 }
 
-/// That rigid-body motions are among the modes: of a sheet that nothing holds, in a band from 0 Hz.
+/// The note that the modes include rigid-body motions, for a sheet without any edge that resists
+/// displacement in a band from 0 Hz.
 fn rigid(ground: &Ground<'_>) -> Option<Note> {
     let count = rigid_motions(ground.surface)?;
     let all = match &ground.counted {
@@ -52,14 +53,16 @@ fn rigid(ground: &Ground<'_>) -> Option<Note> {
     })
 }
 
-/// Number of rigid-body motions of a surface among the modes of its band: 3 of a sheet that nothing holds (up and down, and two tilts),
-/// 1 of such a sheet under tension, which resists tilts; `None` where something holds it or the band begins above 0 Hz.
+/// Number of rigid-body motions among the modes of a surface's band: 3 for a sheet without any edge that
+/// resists displacement (up and down, and two tilts), 1 for such a sheet under tension, which resists
+/// tilts. `None` if an edge resists displacement or the band begins above 0 Hz.
 pub fn rigid_motions(surface: &Surface) -> Option<usize> {
-    let free = !surface.outline.holds() && surface.emission.band[0] <= 0.0;
+    let free = !surface.outline.resists_displacement() && surface.emission.band[0] <= 0.0;
     free.then_some(if surface.sheet.tension > 0.0 { 1 } else { 3 })
 }
 
-/// How contrast grows with the window, and why not as its square root.
+/// The note on how contrast grows with the window, and why it does not grow as the square root of the
+/// window.
 fn growth(design: &Design) -> Note {
     Note {
         topic: "contrast".into(),
@@ -73,7 +76,7 @@ fn growth(design: &Design) -> Note {
     }
 }
 
-/// Which power is meant.
+/// The note on what is meant by the power at a finger.
 fn power() -> Note {
     Note {
         topic: "power at a finger".into(),

@@ -8,8 +8,8 @@ use unripple_core::{
 /// Relative difference up to which two dimensions or constants are the same: far above rounding, far below any change made on purpose.
 const SAME: f64 = 1e-6;
 
-/// Wavelength for which the paper's table 1 and window are computed, in metres. With twice this wavelength, celerities of the
-/// table would differ from those printed.
+/// Wavelength for which the paper's table 1 and window are computed, in metres. With twice this wavelength,
+/// phase velocities in the table would differ from those printed.
 pub(super) const WAVELENGTH: f64 = 15e-3;
 
 /// Width of the contact in the paper's table, in metres. With twice this width, strips and powers would be twice those
@@ -65,8 +65,8 @@ pub fn papers_surface() -> Surface {
     }
 }
 
-/// Whether a surface is the paper's film in its frame with eight actuators, under any tension and with any losses: the only one
-/// that the paper's numbers are about.
+/// Whether a surface is the paper's film in its frame with eight actuators, with any tension and any
+/// losses: the paper's numbers apply to no other surface.
 pub(super) fn is_papers_film(surface: &Surface) -> bool {
     let own = papers_surface();
     let same = |a: f64, b: f64| (a / b - 1.0).abs() < SAME;
@@ -82,7 +82,7 @@ pub(super) fn is_papers_film(surface: &Surface) -> bool {
         && same(sheet.poisson, film.poisson)
         && same(sheet.thickness, film.thickness)
         && sheet.tension > 0.0
-        && sheet.uneven.is_nothing()
+        && sheet.uneven.is_uniform()
         && surface.actuators.len() == own.actuators.len()
 }
 

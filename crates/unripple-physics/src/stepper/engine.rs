@@ -20,34 +20,36 @@ use unripple_core::{Finger, Pole};
 /// have two rows each, for the place they move from and the place they move to.
 #[derive(Clone, Debug)]
 pub(super) struct Engine {
-    /// Displacement and velocity of all modes, and of the housings and their twins behind them.
+    /// Displacement and velocity of all modes, followed by those of the housings and of their twins.
     pub(super) field: Field,
-    /// Number of modes and housings; what is behind them is of twins, which are no part of the surface.
+    /// Number of modes and housings; the coordinates after them belong to the housings' twins, which are
+    /// not part of the surface.
     pub(super) own: usize,
     /// The loads at all ports.
     pub(super) bank: Bank,
-    /// The port and factors of each channel, in channel order.
+    /// The port of each channel and its factors for drive and sensor, in channel order.
     pub(super) leads: Vec<Lead>,
-    /// The fingers on the surface, those being put down or lifted included.
+    /// The fingers on the surface, including those being put down or lifted.
     pub(super) touches: Vec<Touch>,
     /// The effect of ports on each other over a step.
     pub(super) couplings: Couplings,
-    /// Rows of weights, rows x modes.
+    /// Modal weights of all ports, rows x modes.
     pub(super) weights: Rows,
-    /// A copy of the rows in use, in the layout for the sweep over modes: those of the fixed ports, then one or two for each
-    /// finger.
+    /// A copy of the rows of weights in use, in the memory layout for the loop over modes: those of the
+    /// fixed ports, then one or two for each finger.
     pub(super) tiles: Tiles,
-    /// Forces on the tiles' columns, in N.
+    /// Forces on the columns of the tiles, in N.
     pub(super) forces: Vec<f64>,
-    /// Impulses on the tiles' columns, in N·s.
+    /// Impulses on the columns of the tiles, in N·s.
     pub(super) impulses: Vec<f64>,
     /// Whether the impulses have still to be applied to the modes.
     pub(super) pending: bool,
-    /// Sums of the sweep, with the number of ports without load, and whether any drive acts on the sheet as an impulse.
+    /// Motion of the ports summed over modes, with the number of ports without load, and whether any drive
+    /// acts on the sheet as an impulse.
     pub(super) felt: PortSums,
     /// Number of ports that never change; those without load come first.
     pub(super) fixed: usize,
-    /// Whether masses take part in impulses at once.
+    /// Whether the velocity of any mass changes instantly with an impulse.
     pub(super) sharing: bool,
     free_slots: Vec<usize>,
     fingers: usize,
@@ -55,9 +57,9 @@ pub(super) struct Engine {
     pub(super) dt: f64,
     /// Number of steps per sample.
     pub(super) substeps: usize,
-    /// Progress of putting down or lifting a finger in one step, as a share of the whole.
+    /// Share of the fade-in or fade-out of a finger's load that passes in one step.
     pub(super) fade: f64,
-    /// Progress of a finger's movement in one step, as a share of the whole.
+    /// Share of a finger's movement from one contact to the next that passes in one step.
     pub(super) glide: f64,
     /// Velocity of the ports, in m/s.
     pub(super) velocity: Vec<Oct>,
@@ -69,9 +71,9 @@ pub(super) struct Engine {
     pub(super) change: Vec<Oct>,
     /// Displacement of the ports over the next step with impulses but without forces, in m.
     pub(super) free: Vec<Oct>,
-    /// The probes.
+    /// The probes, which read velocity or displacement at points.
     pub(super) probes: Probes,
-    /// Number of samples so far.
+    /// Number of samples processed so far.
     pub(super) samples: u64,
     /// Whether weights or poles have changed since the forces were computed.
     pub(super) stale: bool,
@@ -163,21 +165,22 @@ impl Engine {
         self.sharing = self.bank.shares();
     }
 
-    /// Computes the couplings of these rows with all rows, and updates everything that depends on them.
+    /// Computes the couplings of the given rows of weights with all rows, and updates everything that
+    /// depends on these couplings.
     fn measure(&mut self, rows: Range<usize>) {
         let arch = self.arch;
         arch.dispatch(Measure { engine: self, rows });
     }
 
-    /// Replaces the poles; displacement and velocity of the modes stay.
+    /// Replaces the poles of the modes; their displacement and velocity stay as they are.
     pub(super) fn tune(&mut self, poles: impl Iterator<Item = Pole>) {
         self.field.tune(poles, self.dt);
         self.measure(0..self.fixed + 2 * self.fingers);
         self.stale = true;
     }
 
-    /// Puts a finger down, with the weights of its contact, one per mode; `false` if the largest number of fingers is
-    /// reached.
+    /// Puts a finger down, given the weights of its contact, one per mode; returns `false` if the largest
+    /// number of fingers is reached.
     pub(super) fn put(&mut self, id: u64, finger: Finger, weights: &[f64]) -> bool {
         let Some(slot) = self.free_slots.pop() else { return false };
         let touch = Touch::new(id, finger, slot);
@@ -193,8 +196,8 @@ impl Engine {
         true
     }
 
-    /// Starts the movement of a finger, given by its index, from its present contact to one of other weights, one
-    /// per mode.
+    /// Starts the movement of the finger with this index from its present contact to a contact with other
+    /// weights, one per mode.
     pub(super) fn shift(&mut self, finger: usize, weights: &[f64]) {
         let touch = self.touches[finger];
         let [from, to] = self.ends(touch.slot);
@@ -210,14 +213,14 @@ impl Engine {
         self.stale = true;
     }
 
-    /// Replaces the weights, one per mode, of a port without load, given by its index.
-    pub(super) fn reseat(&mut self, port: usize, weights: &[f64]) {
+    /// Replaces the weights, one per mode, of the port with this index, which has no load.
+    pub(super) fn move_port(&mut self, port: usize, weights: &[f64]) {
         self.weights.fill(port, weights);
         self.measure(port..port + 1);
         self.stale = true;
     }
 
-    /// Removes a finger, given by its index; [`Engine::renew_now`] must follow.
+    /// Removes the finger with this index; [`Engine::renew_now`] must be called afterwards.
     #[cold]
     pub(super) fn drop_finger(&mut self, finger: usize) {
         let port = self.fixed + finger;
@@ -227,7 +230,8 @@ impl Engine {
         self.free_slots.push(touch.slot);
     }
 
-    /// Indices of the two rows of a finger: of the place it moves from and of the place it moves to.
+    /// Indices of the two rows of weights of a finger: for the place it moves from and the place it moves
+    /// to.
     pub(super) fn ends(&self, slot: usize) -> [usize; 2] {
         [self.fixed + 2 * slot, self.fixed + 2 * slot + 1]
     }

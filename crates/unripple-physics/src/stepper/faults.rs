@@ -4,23 +4,23 @@ use super::surface::VirtualSurface;
 use crate::PhysicsError;
 use unripple_core::{Random, require};
 
-/// Faults to simulate, as they occur between a computer and a real surface. The default is none.
+/// Faults that can occur between a computer and a real surface, to be simulated. The default is no fault.
 ///
 /// The drive passes, in this order: swapped wires, dead channels (set to zero), clipping. Sensor signals pass: dead channels (set to
 /// zero), swapped wires, delay, and added noise (on dead channels too). A dropped block loses both its drive and its sensor signals.
 /// Probes read the true motion of the surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InjectedFaults {
-    /// Tension as a multiple of the nominal one against time: (s, multiple), times ascending; linear between, constant beyond both
-    /// ends. Evaluated at the start of each block.
+    /// Relative tension against time: pairs (s, multiple of the nominal tension), times ascending; linear
+    /// between, constant before the first and after the last. Evaluated at the start of each block.
     pub tension: Vec<(f64, f64)>,
-    /// Rms of white noise added to each sensor signal, in its unit.
+    /// Rms of white noise added to each sensor signal, in the sensor's unit.
     pub noise: f64,
-    /// Magnitude at which the drive is clipped, in its unit; `None` for no clipping.
+    /// Magnitude at which the drive is clipped, in the drive's unit; `None` for no clipping.
     pub clip: Option<f64>,
     /// Indices of channels that neither drive nor sense.
     pub dead: Vec<usize>,
-    /// Pairs of channels, by their indices, whose wires are swapped, for drive and sensor alike.
+    /// Pairs of channel indices whose wires are swapped, for drive and sensor alike.
     pub swapped: Vec<(usize, usize)>,
     /// Delay of the sensor signals, in samples.
     pub latency: usize,
@@ -47,22 +47,22 @@ impl Default for InjectedFaults {
 
 /// A simulated surface with simulated faults, for tests of software that drives and measures a surface.
 #[derive(Clone, Debug)]
-pub struct Misbehaving {
+pub struct FaultySurface {
     surface: VirtualSurface,
     faults: InjectedFaults,
     most: usize,
     /// Number of channels at the end that faults do not affect.
     spare: usize,
     drive: Vec<f64>,
-    /// Delay lines: the last samples of the sensor of each channel, as a ring buffer.
+    /// Delay lines: the latest sensor samples of each channel, as ring buffers.
     late: Vec<f64>,
     oldest: usize,
     random: Random,
     lost: usize,
 }
 
-impl Misbehaving {
-    /// A simulated surface with faults, for blocks of at most `most` samples.
+impl FaultySurface {
+    /// Adds faults to a simulated surface, for blocks of at most `most` samples.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for an index of a channel out of range, negative noise, clipping or tension, times that do not
@@ -100,8 +100,8 @@ impl Misbehaving {
         })
     }
 
-    /// Exempts the last channels, `spare` in number, from all faults: forces that reach the surface without wires, such as
-    /// taps.
+    /// Exempts the last `spare` channels from all faults: for forces that reach the surface without wires,
+    /// such as taps.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] if `spare` exceeds the number of channels, or if a fault names one of these channels.
@@ -116,12 +116,12 @@ impl Misbehaving {
         Ok(Self { spare, ..self })
     }
 
-    /// The simulated surface behind the faults.
+    /// The simulated surface to which the faults were added.
     pub fn surface(&self) -> &VirtualSurface {
         &self.surface
     }
 
-    /// The simulated surface behind the faults, mutable, to set fingers and probes.
+    /// The simulated surface to which the faults were added, mutable, to set fingers and probes.
     pub fn surface_mut(&mut self) -> &mut VirtualSurface {
         &mut self.surface
     }
@@ -131,11 +131,12 @@ impl Misbehaving {
         self.lost
     }
 
-    /// Processes a block of `frames` samples as [`VirtualSurface::process`] does, with all faults. Never
-    /// allocates.
+    /// Processes a block of `frames` samples as [`VirtualSurface::process`] does, and applies all faults.
+    /// Never allocates.
     ///
     /// # Errors
-    /// Those of [`VirtualSurface::process`]; [`PhysicsError::Range`] for a block longer than [`Misbehaving::new`] was told.
+    /// Those of [`VirtualSurface::process`]; [`PhysicsError::Range`] for a block longer than the limit
+    /// passed to [`FaultySurface::new`].
     pub fn process(
         &mut self,
         frames: usize,
@@ -165,7 +166,7 @@ impl Misbehaving {
         Ok(())
     }
 
-    /// Writes the drive after its faults into the scratch buffer.
+    /// Writes the drive, with its faults applied, into the scratch buffer.
     fn distort(&mut self, drive: &[f64], frames: usize, lost: bool) {
         self.drive[..drive.len()].copy_from_slice(drive);
         let scratch = &mut self.drive[..drive.len() - self.spare * frames];
@@ -183,7 +184,7 @@ impl Misbehaving {
         }
     }
 
-    /// Applies the faults of the sensor signals.
+    /// Applies faults to the sensor signals.
     fn mislead(&mut self, sensors: &mut [f64], frames: usize, lost: bool) {
         for dead in &self.faults.dead {
             sensors[dead * frames..(dead + 1) * frames].fill(0.0);

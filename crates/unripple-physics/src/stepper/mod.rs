@@ -48,8 +48,8 @@ mod surface;
 mod touch;
 mod wiring;
 
-pub use faults::{InjectedFaults, Misbehaving};
+pub use faults::{FaultySurface, InjectedFaults};
 pub use history::History;
 pub use options::StepperOptions;
-pub use plant::{Channel, Footing, Plant};
+pub use plant::{Channel, ContactWeights, Plant};
 pub use surface::{FingerMotion, Reading, Snapshot, VirtualSurface};

@@ -7,12 +7,12 @@ use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface
 use unripple_linalg::Mat;
 use unripple_plates::decay_rate;
 
-/// Highest frequency of the modes added by [`Plant::bearing`], as a share of half the sample rate: faster ones would
-/// alias. At 1, they would alternate from sample to sample.
+/// Highest frequency of the modes that [`Plant::with_residual_compliance`] adds, relative to half the sample rate: faster
+/// modes would alias. At 1, they would alternate from sample to sample.
 const FASTEST: f64 = 0.9;
 
-/// The sheet for the time-domain simulation: poles and shapes of its modes, and its outline. Cheap to clone, so that another
-/// thread can prepare footings.
+/// The sheet for the time-domain simulation: poles and shapes of its modes, and its outline. It is cheap to
+/// clone, so that another thread can compute [`ContactWeights`].
 #[derive(Clone, Debug)]
 pub struct Plant {
     /// The pole of each mode.
@@ -21,33 +21,34 @@ pub struct Plant {
     pub(super) bending_shares: Arc<[f64]>,
     /// Mode shapes at any point, in 1/√kg.
     pub(super) shapes: Arc<dyn Shapes>,
-    /// The outline, at which discs are cut off.
+    /// The outline of the sheet; contact discs are cut off at its boundary.
     pub(super) outline: Arc<Outline>,
 }
 
 /// A channel of the simulation: one drive and one sensor signal at a contact on the sheet, with its load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// Contact at which it acts and senses.
+    /// The contact over which the channel acts on the sheet and senses its motion.
     pub footprint: Footprint,
-    /// Force per unit of drive (N per unit), or with [`Channel::voltage`] volts per unit of drive; the sensor signal is multiplied
-    /// by it as well.
+    /// Force per unit of drive (N per unit), or volts per unit of drive if [`Channel::voltage`] is set. The
+    /// sensor signal is multiplied by the same factor.
     pub gain: f64,
     /// Load on the sheet that belongs to the channel; `None` for none.
     pub load: Option<Load>,
-    /// Whether the drive is the voltage of the load's coil. The sensor signal is then the current j that only the motion drives
-    /// through the coil, L dj/dt + R j = bl·v, in A, without the current that the drive causes in a coil at rest. Otherwise it is
-    /// the sheet's velocity times the gain. With a housing, v is relative to it, without the part of its motion that the drive
-    /// causes on a sheet that is held still.
+    /// Whether the drive is the voltage of the load's coil. If so, the sensor signal is the current j that
+    /// only the motion drives through the coil, L dj/dt + R j = bl·v, in A, without the current that the
+    /// drive causes in a coil at rest. If not, it is the sheet's velocity v times the gain. With a housing,
+    /// v is the velocity relative to the housing, without the part that the drive causes on a sheet that is
+    /// held still.
     pub voltage: bool,
 }
 
-/// The weights of all modes for a contact disc on the sheet, computed by [`Plant::footing`], if need be on a thread that is not
-/// real-time.
+/// The values of all modes averaged over a contact disc on the sheet, computed by [`Plant::contact_weights`]:
+/// another thread can compute them, so that the real-time thread need not.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Footing {
-    /// One weight per mode, in 1/√kg.
-    pub(super) weights: Vec<f64>,
+pub struct ContactWeights {
+    /// One average per mode, in 1/√kg.
+    pub(super) per_mode: Vec<f64>,
 }
 
 impl Plant {
@@ -87,13 +88,18 @@ impl Plant {
         Self::new(&poles, modes, surface.outline.clone())?.with_bending_shares(&shares)
     }
 
-    /// A sheet with the given modes of a surface and, if its actuators have loads, the residual compliance of higher modes at these
-    /// loads ([`Loaded::with_rest`]). With it, the sheet under a mass is as compliant as it should be, even if few modes are known. If an
-    /// added mode would be too fast for `rate` samples per second, none is added.
+    /// A sheet with the given modes of a surface and, if the surface's actuators load it, the residual
+    /// compliance of higher modes at these loads ([`Loaded::with_rest`]), so that the compliance at the
+    /// loads is accurate even with few modes. If an added mode would be too fast for `rate` samples per
+    /// second, none is added.
     ///
     /// # Errors
     /// Those of [`Plant::new`] and [`transducers`].
-    pub fn bearing(surface: &Surface, modes: Arc<Modes>, rate: f64) -> Result<Self, PhysicsError> {
+    pub fn with_residual_compliance(
+        surface: &Surface,
+        modes: Arc<Modes>,
+        rate: f64,
+    ) -> Result<Self, PhysicsError> {
         let transducers = transducers(surface)?;
         let bare = Self::of(surface, modes.clone())?;
         let top = modes.poles().iter().map(|pole| pole.omega).fold(0.0, f64::max);
@@ -125,7 +131,8 @@ impl Plant {
         Self::new(&responses.poles, responses.shapes.clone(), responses.conditions.outline.clone())
     }
 
-    /// Sets the share of bending in each mode's elastic energy (0 to 1), on which changes of tension have no effect; 0 by default.
+    /// Sets the share of bending in each mode's elastic energy (0 to 1), by default 0: changes of tension
+    /// act on the remaining share only.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for a share outside 0 to 1, or if there is not one for each mode.
@@ -138,17 +145,18 @@ impl Plant {
         Ok(Self { bending_shares: shares.into(), ..self })
     }
 
-    /// The weights of all modes for a contact disc of some radius (m) at a place (m), or at the nearest point of the sheet. Takes the
-    /// time of about eighty evaluations of the shapes and allocates, so it is not for the real-time thread.
+    /// The values of all modes averaged over a contact disc of some radius (m) at a place (m), or at the
+    /// nearest point of the sheet. Takes the time of about eighty evaluations of the shapes and allocates,
+    /// so it must not be called on the real-time thread.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] if the place or the radius is not finite, or the radius negative.
-    pub fn footing(&self, at: Point, radius: f64) -> Result<Footing, PhysicsError> {
+    pub fn contact_weights(&self, at: Point, radius: f64) -> Result<ContactWeights, PhysicsError> {
         require("x of a contact in m", true, "a finite number", at.x)?;
         require("y of a contact in m", true, "a finite number", at.y)?;
         require("radius of a contact in m", radius >= 0.0, "0 or more", radius)?;
         let at = if self.outline.contains(at) { at } else { self.outline.nearest(at) };
-        Ok(Footing { weights: self.weights(&Footprint::disc(at, radius, &self.outline))? })
+        Ok(ContactWeights { per_mode: self.weights(&Footprint::disc(at, radius, &self.outline))? })
     }
 
     /// Mode shapes at points (m), in 1/√kg: points x modes.
@@ -161,7 +169,7 @@ impl Plant {
         self.poles.len()
     }
 
-    /// Weights of a footprint, one per mode, in 1/√kg; an error if one is not finite.
+    /// Mode shapes averaged over a footprint, one value per mode, in 1/√kg; an error if one is not finite.
     pub(super) fn weights(&self, footprint: &Footprint) -> Result<Vec<f64>, PhysicsError> {
         let weights = footprint.weights(&*self.shapes);
         for weight in &weights {
@@ -188,7 +196,7 @@ impl Channel {
         Self { footprint, gain: 1.0, load: None, voltage: false }
     }
 
-    /// The channels of all actuators of a surface, in order.
+    /// The channels of all actuators of a surface, in the order of the actuators.
     ///
     /// # Errors
     /// Those of [`transducers`].
@@ -196,7 +204,8 @@ impl Channel {
         Ok(transducers(surface)?.into_iter().map(Self::from).collect())
     }
 
-    /// This channel without the inductance of its coil if the current follows the voltage within far less than a sample.
+    /// Returns this channel, with its coil's inductance set to zero if the current follows the voltage
+    /// within far less than a sample.
     pub(super) fn settled(&self, rate: f64) -> Self {
         let mut channel = self.clone();
         if let Some(coil) = channel.load.as_mut().and_then(|load| load.circuit.as_mut())

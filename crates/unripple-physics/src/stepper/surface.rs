@@ -4,7 +4,7 @@ use super::engine::Engine;
 use super::field::Probes;
 use super::history::History;
 use super::options::StepperOptions;
-use super::plant::{Channel, Footing, Plant};
+use super::plant::{Channel, ContactWeights, Plant};
 use super::run::{Block, Drive, Out, Planes};
 use crate::{Modes, PhysicsError};
 use std::sync::Arc;
@@ -19,7 +19,7 @@ pub enum Reading {
     Displacement,
 }
 
-/// The field of a running surface at an instant.
+/// The displacement and velocity of a running surface at one instant, at a list of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     /// Displacement at each point, in m.
@@ -31,21 +31,22 @@ pub struct Snapshot {
 /// Motion of a finger on a running surface, with the force on it and the power into it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FingerMotion {
-    /// Factor of the finger's coupling to the sheet: rises smoothly from 0, when the finger is just put down, to 1 in full contact.
+    /// Factor of the finger's coupling to the sheet, which rises smoothly from 0 when the finger is put
+    /// down to 1 in full contact.
     pub grip: f64,
-    /// Force on the finger over the next step, in N.
+    /// Force on the finger over the next time step, in N.
     pub force: f64,
     /// Velocity of the sheet under the finger, in m/s, times `grip`.
     pub velocity: f64,
     /// Displacement of the finger since it was put down (the extension of its spring), in m.
     pub displacement: f64,
-    /// Mean power into the finger over the last block, dissipated and stored together, in W: the exact work of the contact force over
-    /// the block's duration.
+    /// Mean power into the finger over the last block, dissipated and stored together, in W: the exact work
+    /// of the contact force, divided by the block's duration.
     pub power: f64,
 }
 
-/// A surface simulated in the time domain: takes drive, gives sensor and probe signals, and can be touched by fingers. The
-/// [module](crate::stepper) describes the scheme.
+/// A surface simulated in the time domain: it takes drive samples, returns sensor and probe samples, and
+/// can be touched by fingers. The [module](crate::stepper) describes the numerical scheme.
 #[derive(Clone, Debug)]
 pub struct VirtualSurface {
     /// State of modes, loads and fingers.
@@ -88,7 +89,8 @@ impl VirtualSurface {
         Self::new(&plant, &Channel::all(surface)?, surface.emission.rate, options)
     }
 
-    /// The sheet (poles, shapes and outline), with which another thread can prepare footings.
+    /// The sheet (poles, shapes and outline), with which another thread can compute
+    /// [`ContactWeights`].
     pub fn plant(&self) -> &Plant {
         &self.plant
     }
@@ -98,12 +100,12 @@ impl VirtualSurface {
         self.rate
     }
 
-    /// Number of channels, each a drive and a sensor.
+    /// Number of channels; each has a drive and a sensor signal.
     pub fn channels(&self) -> usize {
         self.engine.leads.len()
     }
 
-    /// Number of probes, in the order they were set.
+    /// Number of probes set by [`VirtualSurface::set_probes`].
     pub fn probes(&self) -> usize {
         self.engine.probes.heard.len()
     }
@@ -113,12 +115,12 @@ impl VirtualSurface {
         self.engine.samples
     }
 
-    /// Replaces all probes by probes at these points (m). Allocates.
+    /// Replaces all probes by probes of the given quantities at the given points (m). Allocates.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for a point that is not finite.
     pub fn set_probes(&mut self, probes: &[(Point, Reading)]) -> Result<(), PhysicsError> {
-        let rows = probes.iter().map(|(at, _)| Ok(self.plant.footing(*at, 0.0)?.weights));
+        let rows = probes.iter().map(|(at, _)| Ok(self.plant.contact_weights(*at, 0.0)?.per_mode));
         let rows: Vec<Vec<f64>> = rows.collect::<Result<_, PhysicsError>>()?;
         let displaced = probes.iter().map(|(_, reading)| *reading == Reading::Displacement).collect();
         let modes = self.engine.field.displacement().len();
@@ -135,20 +137,21 @@ impl VirtualSurface {
         let row = |(probe, at): &(usize, Point)| {
             let expected = format!("less than {count}, the number of probes");
             require("probe to be moved", *probe < count, expected, *probe as f64)?;
-            Ok((*probe, self.plant.footing(*at, 0.0)?))
+            Ok((*probe, self.plant.contact_weights(*at, 0.0)?))
         };
         let rows = moved.iter().map(row).collect::<Result<Vec<_>, PhysicsError>>()?;
-        rows.iter().for_each(|(probe, footing)| self.engine.probes.place(*probe, &footing.weights));
+        rows.iter().for_each(|(probe, weights)| self.engine.probes.place(*probe, &weights.per_mode));
         Ok(())
     }
 
-    /// Moves a channel without load to another contact, from the next sample on, for example to tap the surface anywhere by the
-    /// drive of this channel. Allocates only if it fails.
+    /// Moves a channel without load to another contact, from the next sample on: for example, its drive can
+    /// then tap the surface at any place. Allocates only if it fails.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for an index out of range or a footing of another sheet, [`PhysicsError::Unsupported`] for a loaded channel.
-    pub fn seat(&mut self, channel: usize, footing: &Footing) -> Result<(), PhysicsError> {
-        self.check_footing(footing)?;
+    /// [`PhysicsError::Range`] for an index out of range or contact weights of another sheet,
+    /// [`PhysicsError::Unsupported`] for a loaded channel.
+    pub fn move_channel(&mut self, channel: usize, weights: &ContactWeights) -> Result<(), PhysicsError> {
+        self.check_weights(weights)?;
         let lead = self.engine.leads.get(channel).copied();
         let Some(lead) = lead else {
             let expected = format!("less than {}, the number of channels", self.channels());
@@ -161,11 +164,12 @@ impl VirtualSurface {
                 found: format!("channel {channel}, with a load"),
             });
         }
-        self.engine.reseat(lead.port, &footing.weights);
+        self.engine.move_port(lead.port, &weights.per_mode);
         Ok(())
     }
 
-    /// Processes a block of `frames` samples: takes the drive of all channels, gives all sensor and probe signals. Never allocates.
+    /// Processes a block of `frames` samples: reads the drive samples of all channels and writes all sensor
+    /// and probe samples. Never allocates.
     ///
     /// All three are planar: the samples of channel 0, then those of channel 1, and so on. Sample i of a sensor or probe
     /// contains the effect of drive sample i. `sensors` and `probes` may be empty. Results do not depend on the lengths of
@@ -202,7 +206,8 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// Records from now on the modal state after every `stride`-th sample, and keeps the newest `states` of them. Allocates.
+    /// Starts to record the modal state after every `stride`-th sample; a ring buffer holds the newest
+    /// states, at most `states` of them. Allocates.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for a stride or number of states of 0, or more states than 2^20.
@@ -222,26 +227,33 @@ impl VirtualSurface {
         arch.dispatch(Block { engine: &mut self.engine, planes });
     }
 
-    /// Puts a finger down, under the number `id`. Its load is faded in over [`StepperOptions::fade`], with its spring relaxed at
-    /// first. Evaluates mode shapes over its disc and allocates; [`VirtualSurface::touch_on`] does not.
+    /// Puts a finger down; `id` identifies it from now on. Its load is faded in over
+    /// [`StepperOptions::fade`], with its spring relaxed at first. Evaluates mode shapes over the contact
+    /// disc and allocates; [`VirtualSurface::touch_on`] does not.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for a value out of its range, or if there are too many fingers; [`PhysicsError::Unsupported`] if
     /// a finger of this number is down.
     pub fn touch(&mut self, id: u64, contact: &Contact) -> Result<(), PhysicsError> {
-        let footing = self.plant.footing(contact.at, contact.finger.contact_radius)?;
-        self.touch_on(id, &contact.finger, &footing)
+        let weights = self.plant.contact_weights(contact.at, contact.finger.contact_radius)?;
+        self.touch_on(id, &contact.finger, &weights)
     }
 
-    /// Puts a finger down on a footing prepared before (one weight per mode). Allocates only if it fails.
+    /// Puts a finger down on a contact whose modal weights [`Plant::contact_weights`] has computed before (one
+    /// weight per mode). Allocates only if it fails.
     ///
     /// # Errors
     /// Those of [`VirtualSurface::touch`].
-    pub fn touch_on(&mut self, id: u64, finger: &Finger, footing: &Footing) -> Result<(), PhysicsError> {
+    pub fn touch_on(
+        &mut self,
+        id: u64,
+        finger: &Finger,
+        weights: &ContactWeights,
+    ) -> Result<(), PhysicsError> {
         require("mass of a finger in kg", finger.mass >= 0.0, "0 or more", finger.mass)?;
         require("damping of a finger in N·s/m", finger.damping >= 0.0, "0 or more", finger.damping)?;
         require("stiffness of a finger in N/m", finger.stiffness >= 0.0, "0 or more", finger.stiffness)?;
-        self.check_footing(footing)?;
+        self.check_weights(weights)?;
         if self.find(id).is_some() {
             return Err(PhysicsError::Unsupported {
                 what: "name of a finger put down",
@@ -249,7 +261,7 @@ impl VirtualSurface {
                 found: id.to_string(),
             });
         }
-        if self.engine.put(id, *finger, &footing.weights) {
+        if self.engine.put(id, *finger, &weights.per_mode) {
             return Ok(());
         }
         let found = self.engine.touches.len();
@@ -257,29 +269,31 @@ impl VirtualSurface {
         Ok(require("fingers at once", false, expected, found as f64 + 1.0)?)
     }
 
-    /// Moves a finger to a place (m). Its contact is cross-faded from the present to the new place over
+    /// Moves a finger to a place (m). Its load is cross-faded from the present to the new contact over
     /// [`StepperOptions::glide`]. Allocates; [`VirtualSurface::move_onto`] does not.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for a place that is not finite, [`PhysicsError::Unsupported`] if no finger of this number is down.
     pub fn move_to(&mut self, id: u64, at: Point) -> Result<(), PhysicsError> {
         let finger = self.down(id)?;
-        let footing = self.plant.footing(at, self.engine.touches[finger].finger.contact_radius)?;
-        self.move_onto(id, &footing)
+        let weights = self.plant.contact_weights(at, self.engine.touches[finger].finger.contact_radius)?;
+        self.move_onto(id, &weights)
     }
 
-    /// Moves a finger onto a footing prepared before (one weight per mode). Allocates only if it fails.
+    /// Moves a finger to a contact whose modal weights [`Plant::contact_weights`] has computed before (one weight
+    /// per mode). Allocates only if it fails.
     ///
     /// # Errors
     /// Those of [`VirtualSurface::move_to`].
-    pub fn move_onto(&mut self, id: u64, footing: &Footing) -> Result<(), PhysicsError> {
-        self.check_footing(footing)?;
+    pub fn move_onto(&mut self, id: u64, weights: &ContactWeights) -> Result<(), PhysicsError> {
+        self.check_weights(weights)?;
         let finger = self.down(id)?;
-        self.engine.shift(finger, &footing.weights);
+        self.engine.shift(finger, &weights.per_mode);
         Ok(())
     }
 
-    /// Lifts a finger: its load is faded out over [`StepperOptions::fade`], its number is free at once. Allocates only if it fails.
+    /// Lifts a finger: its load is faded out over [`StepperOptions::fade`]; `id` can be used for another
+    /// finger at once. Allocates only if it fails.
     ///
     /// # Errors
     /// [`PhysicsError::Unsupported`] if no finger of this number is down.
@@ -289,7 +303,8 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// Motion of a finger (m, m/s), force on it (N) and power into it (W); `None` if no finger of this number is down.
+    /// Motion of a finger (m, m/s), force on it (N) and power into it (W); `None` if no finger with this
+    /// `id` is down.
     pub fn finger_motion(&self, id: u64) -> Option<FingerMotion> {
         let finger = self.find(id)?;
         let (engine, port) = (&self.engine, self.engine.fixed + finger);
@@ -308,7 +323,8 @@ impl VirtualSurface {
         })
     }
 
-    /// Sets the tension from the next sample on, as a multiple `factor` of the tension that the modes were computed for.
+    /// Sets the tension from the next sample on, to `factor` times the tension for which the modes were
+    /// computed.
     ///
     /// To first order: `ω² = ω0² (1 + (factor - 1)(1 - share))`, with `share` the share of bending in the mode's elastic energy.
     /// Shapes and decay do not change; it is exact where tension does not change shapes. Displacement and velocity are
@@ -347,14 +363,14 @@ impl VirtualSurface {
         Snapshot { displacement: read(displacement), velocity: read(velocity) }
     }
 
-    /// Energy of the sheet, its loads and their housings, in J: kinetic, elastic, magnetic. Without drive it grows only by changes of
-    /// tension.
+    /// Energy of the sheet, its loads and their housings, in J: kinetic, elastic and magnetic. Without
+    /// drive it can grow only when the tension is changed.
     pub fn energy(&self) -> f64 {
         self.engine.field.energy(self.engine.own) + self.engine.bank.energy()
     }
 
-    fn check_footing(&self, footing: &Footing) -> Result<(), PhysicsError> {
-        let (found, modes) = (footing.weights.len(), self.plant.modes());
+    fn check_weights(&self, weights: &ContactWeights) -> Result<(), PhysicsError> {
+        let (found, modes) = (weights.per_mode.len(), self.plant.modes());
         if found == modes {
             return Ok(());
         }
@@ -374,7 +390,7 @@ impl VirtualSurface {
     }
 }
 
-/// Refuses a slice that does not have the expected length, nor is empty if `or_none`.
+/// Refuses a slice that does not have the expected length; an empty slice is accepted if `or_none` is true.
 pub(super) fn size(what: &str, found: usize, expected: usize, or_none: bool) -> Result<(), PhysicsError> {
     if found == expected || (or_none && found == 0) {
         return Ok(());

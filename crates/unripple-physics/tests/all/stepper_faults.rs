@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use unripple_core::{Edge, Edges, Point};
 use unripple_physics::Modes;
-use unripple_physics::stepper::{InjectedFaults, Misbehaving, Reading, StepperOptions, VirtualSurface};
+use unripple_physics::stepper::{FaultySurface, InjectedFaults, Reading, StepperOptions, VirtualSurface};
 
 use crate::modes_common;
 
@@ -27,7 +27,7 @@ fn drive(c: usize, i: usize) -> f64 {
 fn run(faults: InjectedFaults, sent: impl Fn(usize, usize) -> f64) -> (Vec<Vec<f64>>, Vec<f64>, usize) {
     let mut surface = surface();
     surface.set_probes(&[(Point::from_mm(62.0, 90.0), Reading::Velocity)]).unwrap();
-    let mut wrong = Misbehaving::new(surface, faults, FRAMES).unwrap();
+    let mut wrong = FaultySurface::new(surface, faults, FRAMES).unwrap();
     let (mut heard, mut probe) = (vec![Vec::new(); CHANNELS], Vec::new());
     for block in 0..BLOCKS {
         let planar: Vec<f64> =
@@ -125,11 +125,11 @@ fn tension_drifts_as_its_table_says() {
 
 #[test]
 fn faults_that_cannot_be_are_refused() {
-    let refused = |faults| Misbehaving::new(surface(), faults, FRAMES).unwrap_err().to_string();
+    let refused = |faults| FaultySurface::new(surface(), faults, FRAMES).unwrap_err().to_string();
     assert!(refused(InjectedFaults { dead: vec![3], ..none() }).contains("less than 3"));
     assert!(refused(InjectedFaults { dropped: 1.5, ..none() }).contains("between 0 and 1"));
     assert!(refused(InjectedFaults { noise: -1.0, ..none() }).contains("noise"));
     assert!(refused(InjectedFaults { tension: vec![(1.0, 1.0), (1.0, 1.1)], ..none() }).contains("later"));
-    let mut wrong = Misbehaving::new(surface(), none(), FRAMES).unwrap();
+    let mut wrong = FaultySurface::new(surface(), none(), FRAMES).unwrap();
     assert!(wrong.process(65, &[0.0; 195], &mut [], &mut []).is_err());
 }

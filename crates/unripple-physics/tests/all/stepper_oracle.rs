@@ -239,15 +239,17 @@ fn a_channel_that_is_moved_strikes_where_it_went() {
         VirtualSurface::new(&membrane(49, 20.0), &channels, 48e3, &StepperOptions::default()).unwrap()
     };
     let (mut moved, mut there) = (at(places[0]), at(places[1]));
-    let footing = moved.plant().footing(mm(90.0, 33.0), 0.0).unwrap();
-    assert!(moved.seat(0, &footing).is_err() && moved.seat(2, &footing).is_err());
-    moved.seat(1, &footing).unwrap();
+    let contact_weights = moved.plant().contact_weights(mm(90.0, 33.0), 0.0).unwrap();
+    assert!(
+        moved.move_channel(0, &contact_weights).is_err() && moved.move_channel(2, &contact_weights).is_err()
+    );
+    moved.move_channel(1, &contact_weights).unwrap();
     let drive = noise(3, 2 * 512);
     let (found, expected) = (run(&mut moved, &drive), run(&mut there, &drive));
     assert!(apart(&found.0, &expected.0) < 1e-12);
     // Under way, what rings already goes on.
-    let footing = moved.plant().footing(mm(40.0, 50.0), 0.0).unwrap();
+    let contact_weights = moved.plant().contact_weights(mm(40.0, 50.0), 0.0).unwrap();
     let energy = moved.energy();
-    moved.seat(1, &footing).unwrap();
+    moved.move_channel(1, &contact_weights).unwrap();
     assert_eq!(moved.energy(), energy);
 }

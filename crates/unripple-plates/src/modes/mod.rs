@@ -38,20 +38,23 @@ impl Modes {
     /// to 0.1. A plain number is refused if it cannot be reached; an [`Accuracy`] can name a larger error that is then
     /// accepted. On a mesh (see below), about 1e-7 is the best that can be reached.
     ///
-    /// Clamped, supported, free and elastic sides may be mixed, and tension and bending act together. The modes of uniform
-    /// isotropic rectangles are exact if all sides are supported, or if there is neither bending stiffness nor an elastic side. For other
-    /// such rectangles they are found by the Ritz method, from products of polynomials (of sines between supported sides), split by
-    /// symmetry. Polynomials are added until the estimated effect of further ones is below `accuracy`. Frequencies converge from
-    /// above, by a factor e^-1.5 for each polynomial, but only with the fourth power of their number where a clamped side meets a free
-    /// one. Springs so hard that rounding errors of their energy exceed `accuracy` are left to a mesh. A sheet that nothing holds has rigid-body modes at 0 Hz: three, or one if it is under tension.
+    /// Clamped, supported, free and elastic sides may be mixed, and tension and bending act together. The modes of
+    /// uniform isotropic rectangles are exact if all sides are supported, or if there is neither bending stiffness nor
+    /// an elastic side. For other such rectangles they are found by the Ritz method, from products of polynomials (of
+    /// sines between supported sides), split by symmetry. Polynomials are added until the estimated effect of further
+    /// ones is below `accuracy`. Frequencies converge from above, by a factor e^-1.5 for each polynomial, but only with
+    /// the fourth power of their number where a clamped side meets a free one. Springs so hard that rounding errors of
+    /// their energy exceed `accuracy` are left to a mesh. A sheet that nothing holds has rigid-body modes at 0 Hz:
+    /// three, or one if it is under tension.
     ///
-    /// All other outlines, holes, membranes with elastic sides, orthotropy, profiles and scatterers are solved with continuously differentiable
-    /// quintic elements on a mesh (Argyris, Fried and Scharpf 1968), curved along curved edges and graded towards singular corners.
-    /// No mode is missed: the number of modes is known from the signs of pivots (Sylvester's law of inertia). Frequencies converge from
-    /// above with the seventh to eighth power of the edge length. The error is bounded from three meshes, each finer than the one before,
-    /// by the rate at which they converge, and the mesh is refined until it is below `accuracy`; where the rate is too slow for that, the
-    /// accuracy is refused. A uniform isotropic plate supported along a convex polygon has the modes of the membrane on it
-    /// (Conway 1961), and is solved as one.
+    /// All other outlines, holes, membranes with elastic sides, orthotropy, profiles and scatterers are solved with
+    /// continuously differentiable quintic elements on a mesh (Argyris, Fried and Scharpf 1968), curved along curved
+    /// edges and graded towards singular corners. No mode is missed: the number of modes is known from the signs of
+    /// pivots (Sylvester's law of inertia). Frequencies converge from above with the seventh to eighth power of the
+    /// edge length. The error is bounded from three meshes, each finer than the one before, by the rate at which they
+    /// converge, and the mesh is refined until it is below `accuracy`; where the rate is too slow for that, the
+    /// accuracy is refused. A uniform isotropic plate supported along a convex polygon has the modes of the membrane on
+    /// it (Conway 1961), and is solved as one.
     ///
     /// Air is an added mass ρ_0/√(k² - (ω/c_0)²) on each side, with k the wavenumber at the mode's frequency in vacuum. Modes faster
     /// than sound radiate instead, which adds to their decay rate ([`Medium`](crate::Medium)).
@@ -147,7 +150,7 @@ impl Shapes for Modes {
 
 /// Refuses a sheet without restoring force: with free edges only and without bending stiffness.
 fn rests(surface: &Surface, bounds: &Bounds) -> Result<(), PhysicsError> {
-    if bounds.medium.bending_stiffness > 0.0 || surface.outline.holds() {
+    if bounds.medium.bending_stiffness > 0.0 || surface.outline.resists_displacement() {
         return Ok(());
     }
     Err(PhysicsError::Unsupported {

@@ -5,7 +5,7 @@ use crate::common;
 use common::{Rig, smooth};
 use proptest::prelude::*;
 use std::sync::Arc;
-use unripple_player::{At, Clicks, Command, Limit, Options, Prepared, Report, Running, Voice};
+use unripple_player::{At, Clicks, Command, Limit, Options, PreparedDrive, Report, Running, Voice};
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, max_shrink_iters: 200, ..ProptestConfig::default() })]
@@ -17,10 +17,10 @@ proptest! {
         let mut rig = Rig::new(Options { outputs: 2, limits, longest: 1400, ..Options::default() });
         let mut clicks = Clicks::new(2, 64);
         // The drive of a voice is always the same, so that reports tell what sounds.
-        let drives: Vec<Arc<Prepared>> = (0..6).map(|voice| {
+        let drives: Vec<Arc<PreparedDrive>> = (0..6).map(|voice| {
             let length = acts[voice % acts.len()].4;
             let drive = smooth(seed + voice as u64, 2, length, 0.8);
-            let looped = || Prepared::looped(2, [drive.channel(0), drive.channel(1)].concat(), 64);
+            let looped = || PreparedDrive::looped(2, [drive.channel(0), drive.channel(1)].concat(), 64);
             if voice % 3 == 0 { Arc::new(looped().unwrap()) } else { drive }
         }).collect();
         for block in 0..140u64 {

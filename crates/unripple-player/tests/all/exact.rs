@@ -6,7 +6,8 @@ use common::{Rig, noise, rough, smooth, start};
 use proptest::prelude::*;
 use std::sync::Arc;
 use unripple_player::{
-    At, Command, Count, FilterPlan, Limit, Options, Prepared, Report, Voice, WaveOptions, Which, Why, player,
+    At, Command, Count, FilterPlan, Limit, Options, PreparedDrive, Report, Voice, WaveOptions, Which, Why,
+    player,
 };
 
 fn options(outputs: usize) -> Options {
@@ -128,7 +129,7 @@ fn what_has_passed_is_late_and_said_so() {
 #[test]
 fn a_comb_repeats_at_rounded_multiples_of_its_period() {
     let mut rig = Rig::new(options(1));
-    let drive = Arc::new(Prepared::new(1, vec![1.0]).unwrap());
+    let drive = Arc::new(PreparedDrive::new(1, vec![1.0]).unwrap());
     let (voice, period) = (Voice(1), Some(70.3));
     rig.send(Command::Start { voice, drive, at: At::Sample(5), gain: 1.0, period });
     rig.stop(voice, At::Sample(900), None);
@@ -143,7 +144,7 @@ fn a_comb_repeats_at_rounded_multiples_of_its_period() {
 fn a_loop_has_no_seam_and_turns_into_another() {
     let mut rig = Rig::new(options(1));
     let pass = |seed| noise(seed, 200);
-    let looped = |pass: Vec<f32>| Arc::new(Prepared::looped(1, pass, 64).unwrap());
+    let looped = |pass: Vec<f32>| Arc::new(PreparedDrive::looped(1, pass, 64).unwrap());
     let (voice, period) = (Voice(1), None);
     rig.send(Command::Start { voice, drive: looped(pass(1)), at: At::Sample(0), gain: 1.0, period });
     rig.send(Command::Swap { voice, drive: looped(pass(2)), at: At::Sample(500) });
@@ -177,7 +178,7 @@ fn starts_beyond_the_work_of_a_block_wait_and_say_so() {
 fn a_drive_is_scaled_by_just_what_is_left() {
     let limits = vec![Limit { peak: 1.0, ..Limit::default() }];
     let mut rig = Rig::new(Options { limits, ..options(1) });
-    let wide = |x: f32| Arc::new(Prepared::new(1, vec![x; 100]).unwrap());
+    let wide = |x: f32| Arc::new(PreparedDrive::new(1, vec![x; 100]).unwrap());
     rig.start(1, &wide(0.75), 0);
     rig.start(2, &wide(0.5), 10);
     // Parts of the other sign may vanish, so they leave no more.
@@ -195,7 +196,7 @@ fn a_drive_is_scaled_by_just_what_is_left() {
 fn what_cannot_be_is_refused_with_the_reason() {
     let mut rig = Rig::new(Options { copies: 2, voices: 1, longest: 500, ..options(2) });
     let good = rough(1, 2, 100, 1.0);
-    let ask = |voice: u64, drive: &Arc<Prepared>, gain: f32, period: Option<f64>| {
+    let ask = |voice: u64, drive: &Arc<PreparedDrive>, gain: f32, period: Option<f64>| {
         let (voice, drive) = (Voice(voice), drive.clone());
         Command::Start { voice, drive, at: At::Now, gain, period }
     };

@@ -6,7 +6,7 @@ use common::{Rig, noise, rough, smooth};
 use proptest::prelude::*;
 use std::sync::Arc;
 use unripple_player::{
-    At, Command, Limit, Options, Prepared, PreparedFilters, Report, Running, Voice, WaveOptions,
+    At, Command, Limit, Options, PreparedDrive, PreparedFilters, Report, Running, Voice, WaveOptions,
 };
 
 const OUTPUTS: usize = 2;
@@ -73,12 +73,15 @@ fn command(act: &Act, rig: &Rig) -> Option<Command> {
     let drive = || match act.seed % 4 {
         0 => rough(act.seed, OUTPUTS, act.samples, 1.5),
         1 => Arc::new(
-            Prepared::new(OUTPUTS, vec![if act.seed % 8 < 4 { 0.9 } else { -0.9 }; OUTPUTS * act.samples])
-                .unwrap(),
+            PreparedDrive::new(
+                OUTPUTS,
+                vec![if act.seed % 8 < 4 { 0.9 } else { -0.9 }; OUTPUTS * act.samples],
+            )
+            .unwrap(),
         ),
         2 => {
             let pass = act.samples.max(140);
-            Arc::new(Prepared::looped(OUTPUTS, noise(act.seed, OUTPUTS * pass), 64).unwrap())
+            Arc::new(PreparedDrive::looped(OUTPUTS, noise(act.seed, OUTPUTS * pass), 64).unwrap())
         }
         _ => smooth(act.seed, OUTPUTS, act.samples, 1.0),
     };
@@ -201,7 +204,7 @@ proptest! {
 fn what_stops_gives_back_what_it_held() {
     let limits = vec![Limit { peak: 1.0, ..Limit::default() }];
     let mut rig = Rig::new(Options { limits, longest: 10_000, ..options(false) });
-    let long = Arc::new(Prepared::new(OUTPUTS, vec![1.0; OUTPUTS * 10_000]).unwrap());
+    let long = Arc::new(PreparedDrive::new(OUTPUTS, vec![1.0; OUTPUTS * 10_000]).unwrap());
     rig.start(1, &long, 0);
     rig.stop(Voice(1), At::Sample(640), Some(64));
     rig.play(60);
@@ -216,7 +219,7 @@ fn a_steady_drive_comes_close_to_its_power() {
     let mut rig = Rig::new(options.clone());
     let hum = |i: usize| 0.6 * (0.3 * i as f32).sin();
     let pulse = Arc::new(
-        Prepared::new(OUTPUTS, [0; OUTPUTS].iter().flat_map(|_| (0..960).map(hum)).collect()).unwrap(),
+        PreparedDrive::new(OUTPUTS, [0; OUTPUTS].iter().flat_map(|_| (0..960).map(hum)).collect()).unwrap(),
     );
     let (voice, period) = (Voice(1), Some(960.0));
     rig.send(Command::Start { voice, drive: pulse, at: At::Now, gain: 1.0, period });
@@ -292,7 +295,7 @@ fn loudest(copies: usize, steps: f32) -> f32 {
     rig.send(Command::Wave { voice, input: 0, filters, samples, at, gain: 1.0, looped: true });
     rig.play(20);
     for voice in 1..=copies as u64 {
-        let drive = Arc::new(Prepared::new(1, vec![steps * f32::EPSILON; 900]).unwrap());
+        let drive = Arc::new(PreparedDrive::new(1, vec![steps * f32::EPSILON; 900]).unwrap());
         rig.send(Command::Start { voice: Voice(voice), drive, at, gain: 1.0, period: None });
     }
     rig.play(3)[0].iter().fold(0.0, |m, x| f32::max(m, x.abs()))

@@ -3,7 +3,7 @@
 #![allow(dead_code)]
 
 use std::sync::Arc;
-use unripple_player::{At, Command, Desk, Hold, Options, Player, Prepared, Report, Voice, player};
+use unripple_player::{At, Command, Desk, Hold, Options, Player, PreparedDrive, Report, Voice, player};
 
 /// A player and its desk in one thread, with all reports and holds so far.
 pub struct Rig {
@@ -41,7 +41,7 @@ impl Rig {
         held.for_each(|(_, hold)| hold.stop(at, fade));
     }
 
-    pub fn start(&mut self, voice: u64, drive: &Arc<Prepared>, sample: u64) {
+    pub fn start(&mut self, voice: u64, drive: &Arc<PreparedDrive>, sample: u64) {
         self.send(start(voice, drive, sample));
     }
 
@@ -66,7 +66,7 @@ impl Rig {
 }
 
 /// A drive played once, at full gain.
-pub fn start(voice: u64, drive: &Arc<Prepared>, sample: u64) -> Command {
+pub fn start(voice: u64, drive: &Arc<PreparedDrive>, sample: u64) -> Command {
     let (voice, drive) = (Voice(voice), drive.clone());
     Command::Start { voice, drive, at: At::Sample(sample), gain: 1.0, period: None }
 }
@@ -84,13 +84,13 @@ pub fn noise(seed: u64, count: usize) -> Vec<f32> {
 }
 
 /// A drive of noise with this peak.
-pub fn rough(seed: u64, outputs: usize, samples: usize, peak: f32) -> Arc<Prepared> {
+pub fn rough(seed: u64, outputs: usize, samples: usize, peak: f32) -> Arc<PreparedDrive> {
     let data: Vec<f32> = noise(seed, outputs * samples).iter().map(|x| x * peak).collect();
-    Arc::new(Prepared::new(outputs, data).unwrap())
+    Arc::new(PreparedDrive::new(outputs, data).unwrap())
 }
 
 /// A drive that rises from nothing and falls back to it, of a few oscillations.
-pub fn smooth(seed: u64, outputs: usize, samples: usize, peak: f32) -> Arc<Prepared> {
+pub fn smooth(seed: u64, outputs: usize, samples: usize, peak: f32) -> Arc<PreparedDrive> {
     let turns = noise(seed, outputs * 2);
     let channel = |output: usize| {
         let (speed, phase) = (0.05 + 0.2 * turns[2 * output].abs(), 6.0 * turns[2 * output + 1]);
@@ -99,5 +99,5 @@ pub fn smooth(seed: u64, outputs: usize, samples: usize, peak: f32) -> Arc<Prepa
             peak * (std::f32::consts::PI * along).sin().powi(2) * (speed * i as f32 + phase).sin()
         })
     };
-    Arc::new(Prepared::new(outputs, (0..outputs).flat_map(channel).collect()).unwrap())
+    Arc::new(PreparedDrive::new(outputs, (0..outputs).flat_map(channel).collect()).unwrap())
 }

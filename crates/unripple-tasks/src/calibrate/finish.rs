@@ -2,7 +2,7 @@
 //! are measured.
 
 use super::campaign::{Campaign, by_taps};
-use super::shelf::Shelf;
+use super::shelf::LibraryFiller;
 use super::verify;
 use crate::{Record, TaskError, own};
 use serde_json::{Value, json};
@@ -62,17 +62,17 @@ pub fn begin(campaign: &Campaign<'_>, library: &mut Library) -> Result<(), TaskE
 /// its spread over actuators in samples.
 pub fn finish(
     campaign: &Campaign<'_>,
-    shelf: &mut Shelf,
+    filler: &mut LibraryFiller,
     latency: Option<[f64; 2]>,
 ) -> Result<(), TaskError> {
-    reciprocity(campaign, shelf)?;
-    spread(campaign, shelf, latency)?;
-    sensors(campaign, shelf)?;
-    lacking(campaign, shelf)?;
-    useless(shelf)?;
-    verify::check(shelf, campaign.surface, campaign.model, &campaign.settings)?;
-    recorded(shelf)?;
-    Ok(shelf.library.set_doubts(UNFINISHED, Vec::new())?)
+    reciprocity(campaign, filler)?;
+    spread(campaign, filler, latency)?;
+    sensors(campaign, filler)?;
+    lacking(campaign, filler)?;
+    useless(filler)?;
+    verify::check(filler, campaign.surface, campaign.model, &campaign.settings)?;
+    recorded(filler)?;
+    Ok(filler.library.set_doubts(UNFINISHED, Vec::new())?)
 }
 
 /// Adds a run to the library's log: its settings, the number of points that it measured, and how many
@@ -106,14 +106,14 @@ pub fn log_run(
 type Pairs = Vec<Vec<Vec<f64>>>;
 
 /// Actuators that are not left out and whose sensors were measured, and the responses at their sensors.
-fn own(campaign: &Campaign<'_>, shelf: &Shelf) -> Result<(Vec<usize>, Pairs), TaskError> {
-    let library = &shelf.library;
+fn own(campaign: &Campaign<'_>, filler: &LibraryFiller) -> Result<(Vec<usize>, Pairs), TaskError> {
+    let library = &filler.library;
     let count = campaign.surface.actuators.len();
-    let measured = |actuator: &usize| library.state(shelf.probed + actuator) == Some(PointState::Measured);
-    let alive: Vec<usize> = (0..count).filter(|a| !shelf.without.contains(a)).filter(measured).collect();
+    let measured = |actuator: &usize| library.state(filler.probed + actuator) == Some(PointState::Measured);
+    let alive: Vec<usize> = (0..count).filter(|a| !filler.without.contains(a)).filter(measured).collect();
     let mut heard = Vec::with_capacity(alive.len());
     for sensor in &alive {
-        let values = library.get(shelf.probed + sensor)?;
+        let values = library.get(filler.probed + sensor)?;
         let all: Vec<Vec<f64>> = values
             .chunks_exact(library.plan().samples)
             .map(|response| response.iter().map(|h| f64::from(*h)).collect())
@@ -124,17 +124,17 @@ fn own(campaign: &Campaign<'_>, shelf: &Shelf) -> Result<(Vec<usize>, Pairs), Ta
 }
 
 /// Records a doubt about a library if the responses between its actuators are not reciprocal.
-fn reciprocity(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
+fn reciprocity(campaign: &Campaign<'_>, filler: &mut LibraryFiller) -> Result<(), TaskError> {
     const CHECK: &str = "reciprocity";
-    let (alive, heard) = own(campaign, shelf)?;
+    let (alive, heard) = own(campaign, filler)?;
     if alive.len() < 2 {
-        shelf.library.log(CHECK, Value::Null)?;
-        return Ok(shelf.library.set_doubts(CHECK, Vec::new())?);
+        filler.library.log(CHECK, Value::Null)?;
+        return Ok(filler.library.set_doubts(CHECK, Vec::new())?);
     }
     let names: Vec<String> =
         alive.iter().map(|actuator| campaign.surface.actuators[*actuator].name.clone()).collect();
     let found = reciprocal(&names, &heard, &[]);
-    let noise = noise(shelf, &alive)?;
+    let noise = noise(filler, &alive)?;
     let beyond = (found.error.powi(2) - noise.powi(2)).max(0.0).sqrt();
     let mut doubts = Vec::new();
     if beyond > RECIPROCITY {
@@ -150,15 +150,15 @@ fn reciprocity(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskErr
         ));
     }
     doubts.extend(found.faults.iter().map(|fault| Doubt::of(CHECK, fault)));
-    shelf.library.log(CHECK, json!({ "error": found.error, "noise": noise, "most": RECIPROCITY }))?;
-    Ok(shelf.library.set_doubts(CHECK, doubts)?)
+    filler.library.log(CHECK, json!({ "error": found.error, "noise": noise, "most": RECIPROCITY }))?;
+    Ok(filler.library.set_doubts(CHECK, doubts)?)
 }
 
 /// The part of the reciprocity error that noise alone would cause.
-fn noise(shelf: &Shelf, alive: &[usize]) -> Result<f64, TaskError> {
+fn noise(filler: &LibraryFiller, alive: &[usize]) -> Result<f64, TaskError> {
     let (mut sum, mut count) = (0.0, 0.0);
     for sensor in alive {
-        let qualities = shelf.library.quality(shelf.probed + sensor)?;
+        let qualities = filler.library.quality(filler.probed + sensor)?;
         let others = alive.iter().filter(|drive| *drive != sensor);
         for noise in others.filter_map(|drive| own::noise(&qualities[*drive])) {
             sum += noise.powi(2);
@@ -169,13 +169,17 @@ fn noise(shelf: &Shelf, alive: &[usize]) -> Result<f64, TaskError> {
 }
 
 /// Records a doubt about a library if the latencies of its actuators differ too much.
-fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>) -> Result<(), TaskError> {
+fn spread(
+    campaign: &Campaign<'_>,
+    filler: &mut LibraryFiller,
+    latency: Option<[f64; 2]>,
+) -> Result<(), TaskError> {
     const CHECK: &str = "latency";
     let Some([late, spread]) = latency else { return Ok(()) };
     let most = LATENCY * campaign.surface.emission.rate;
-    shelf.library.log(CHECK, json!({ "samples": late, "spread_samples": spread, "most_samples": most }))?;
+    filler.library.log(CHECK, json!({ "samples": late, "spread_samples": spread, "most_samples": most }))?;
     // Without a model it is not checked: what was said of points that are there stays.
-    if !campaign.settings.model && !shelf.is_new() {
+    if !campaign.settings.model && !filler.is_new() {
         return Ok(());
     }
     let found = (campaign.settings.model && spread > most).then(|| {
@@ -187,30 +191,30 @@ fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>)
             ),
         )
     });
-    Ok(shelf.library.set_doubts(CHECK, found.into_iter().collect())?)
+    Ok(filler.library.set_doubts(CHECK, found.into_iter().collect())?)
 }
 
 /// Removes the doubt that a record of the library could not be read, once all measured points were measured
 /// after it: in this run, or as the new record says.
-fn recorded(shelf: &mut Shelf) -> Result<(), TaskError> {
-    let library = &shelf.library;
+fn recorded(filler: &mut LibraryFiller) -> Result<(), TaskError> {
+    let library = &filler.library;
     let own = library.logged("own").is_some();
     let since = |point: &usize| {
         let said = library.logged_point(*point).is_some_and(|log| log.get("made").is_some());
-        shelf.made.contains(point) || said || (own && *point >= shelf.probed)
+        filler.made.contains(point) || said || (own && *point >= filler.probed)
     };
     let there = |point: &usize| library.state(*point) != Some(PointState::Missing);
     if !(0..library.points().len()).filter(there).all(|point| since(&point)) {
         return Ok(());
     }
-    Ok(shelf.library.set_doubts("record", Vec::new())?)
+    Ok(filler.library.set_doubts("record", Vec::new())?)
 }
 
 /// Records a doubt about a library without the responses at a sensor, unless the sensor is dead.
-fn lacking(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
+fn lacking(campaign: &Campaign<'_>, filler: &mut LibraryFiller) -> Result<(), TaskError> {
     let lacks = |actuator: &usize| {
-        let state = shelf.library.state(shelf.probed + actuator);
-        let known = shelf.without.contains(actuator) || shelf.deaf.contains(actuator);
+        let state = filler.library.state(filler.probed + actuator);
+        let known = filler.without.contains(actuator) || filler.deaf.contains(actuator);
         matches!(state, Some(PointState::Missing | PointState::Bad)) && !known
     };
     let actuators = &campaign.surface.actuators;
@@ -226,18 +230,18 @@ fn lacking(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
             ),
         )
     });
-    Ok(shelf.library.set_doubts(OWN, found.into_iter().collect())?)
+    Ok(filler.library.set_doubts(OWN, found.into_iter().collect())?)
 }
 
 /// Records a doubt about a library if none of its probed points is good.
-fn useless(shelf: &mut Shelf) -> Result<(), TaskError> {
+fn useless(filler: &mut LibraryFiller) -> Result<(), TaskError> {
     const CHECK: &str = "probed";
     let count = |state: PointState| {
-        (0..shelf.probed).filter(|point| shelf.library.state(*point) == Some(state)).count()
+        (0..filler.probed).filter(|point| filler.library.state(*point) == Some(state)).count()
     };
     let (bad, good) = (count(PointState::Bad), count(PointState::Measured));
     let found = (bad > 0 && good == 0).then(|| {
-        let (by, look) = if by_taps(&shelf.library) { ("taps", "the sensors") } else { ("the probe", "the probe and at the levels") };
+        let (by, look) = if by_taps(&filler.library) { ("taps", "the sensors") } else { ("the probe", "the probe and at the levels") };
         let all = if bad == 1 { "is" } else { "are all" };
         Doubt::of(
             CHECK,
@@ -248,7 +252,7 @@ fn useless(shelf: &mut Shelf) -> Result<(), TaskError> {
             ),
         )
     });
-    Ok(shelf.library.set_doubts(CHECK, found.into_iter().collect())?)
+    Ok(filler.library.set_doubts(CHECK, found.into_iter().collect())?)
 }
 
 /// A number of points in words.
@@ -258,13 +262,13 @@ pub(super) fn points(count: usize) -> String {
 
 /// Records that the points at actuators are not used in metrics, if the sensors are of another scale than
 /// the probe.
-fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
-    let (sensing, plan) = (own::sensing(campaign.surface)?, shelf.library.plan());
+fn sensors(campaign: &Campaign<'_>, filler: &mut LibraryFiller) -> Result<(), TaskError> {
+    let (sensing, plan) = (own::sensing(campaign.surface)?, filler.library.plan());
     let power = |points: std::ops::Range<usize>, own: bool| -> Result<Option<f64>, TaskError> {
         let (mut sum, mut count) = (0.0, 0.0);
-        for point in points.filter(|point| shelf.library.state(*point) == Some(PointState::Measured)) {
-            let values = shelf.library.get(point)?;
-            let values = match own.then(|| &sensing[point - shelf.probed]) {
+        for point in points.filter(|point| filler.library.state(*point) == Some(PointState::Measured)) {
+            let values = filler.library.get(point)?;
+            let values = match own.then(|| &sensing[point - filler.probed]) {
                 Some(sensor) => own::velocities(sensor, &values, plan, campaign.surface),
                 None => Some(values),
             };
@@ -272,8 +276,8 @@ fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
                 values.iter().flat_map(|rows| rows.chunks_exact(plan.samples)).enumerate()
             {
                 // An actuator's response at itself is louder anyway.
-                let itself = own && point - shelf.probed == actuator;
-                if !itself && !shelf.without.contains(&actuator) {
+                let itself = own && point - filler.probed == actuator;
+                if !itself && !filler.without.contains(&actuator) {
                     sum += response.iter().map(|h| f64::from(*h).powi(2)).sum::<f64>();
                     count += 1.0;
                 }
@@ -281,8 +285,8 @@ fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
         }
         Ok((count > 0.0 && sum > 0.0).then(|| sum / count))
     };
-    let all = shelf.library.points().len();
-    let apart = match (power(0..shelf.probed, false)?, power(shelf.probed..all, true)?) {
+    let all = filler.library.points().len();
+    let apart = match (power(0..filler.probed, false)?, power(filler.probed..all, true)?) {
         (Some(probe), Some(sensors)) if !campaign.scales.sensors_too(campaign.surface) => {
             Some((sensors / probe).sqrt())
         }
@@ -295,11 +299,11 @@ fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
             "said": format!(
                 "sensors are {apart:.3} times as loud as the {}, so they must be in another unit: the actuators' own points \
                  are used in no metric (`input_scales` gives their scale)",
-                if by_taps(&shelf.library) { "responses to taps" } else { "probe" }
+                if by_taps(&filler.library) { "responses to taps" } else { "probe" }
             ),
         }),
         Some(apart) => json!({ "over_probe": apart, "left_out": false }),
         None => Value::Null,
     };
-    Ok(shelf.library.log("sensors", said)?)
+    Ok(filler.library.log("sensors", said)?)
 }

@@ -6,9 +6,9 @@ use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
 use super::outcome::doubted;
 use super::points::{self, middle};
 use super::rigs::People;
-use super::shelf::Shelf;
+use super::shelf::LibraryFiller;
 use super::taps;
-use super::wires::{self, Asked, Found};
+use super::wires::{self, Found, WiringTestOptions};
 use super::{By, Hands, Report, before, figure, levels, report};
 use crate::{TaskError, go_on};
 use serde_json::Value;
@@ -46,7 +46,7 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
     wired.keep(&mut library)?;
     begin(&known, &mut library)?;
     let without = known.settings.without.clone();
-    let mut shelf = Shelf::new(library, known.places.probed, surface, &known.scales, without);
+    let mut filler = LibraryFiller::new(library, known.places.probed, surface, &known.scales, without);
 
     let places = &known.places;
     let first = Session::new(surface, &layout, wires.clone(), &known.settings)?;
@@ -56,31 +56,31 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
     let settings = MeasureOptions { latency: late, ..known.settings.clone() };
     let mut session = Session::new(surface, &layout, wires.clone(), &settings)?;
     known.go_on()?;
-    own(&known, &session, rig.as_mut(), &mut shelf, middle)?;
-    if let Some(sensors) = shelf.heard()? {
-        session.follow(&sensors)?;
+    own(&known, &session, rig.as_mut(), &mut filler, middle)?;
+    if let Some(sensors) = filler.heard()? {
+        session.set_reference(&sensors)?;
     }
     let seconds = session.seconds();
     let way = match ask.by {
         By::Probe => Way::Probe(Box::new(session)),
         By::Tap => {
-            shelf = shelf.by_taps();
-            Way::Tap(Box::new(taps::session(&known, &mut shelf, &layout, &wires, &settings)?))
+            filler = filler.by_taps();
+            Way::Tap(Box::new(taps::session(&known, &mut filler, &layout, &wires, &settings)?))
         }
     };
     let start = Instant::now();
-    fill(&known, rig.as_mut(), &way, &mut shelf, settings.retries)?;
+    fill(&known, rig.as_mut(), &way, &mut filler, settings.retries)?;
     let taken = start.elapsed();
-    finish(&known, &mut shelf, latency)?;
+    finish(&known, &mut filler, latency)?;
     if began > 0 {
-        log_run(&known, &mut shelf.library, began, taken.as_secs_f64())?;
+        log_run(&known, &mut filler.library, began, taken.as_secs_f64())?;
     }
-    let report = report::Report::of(&shelf.library, places, latency, truth.as_deref(), seconds, taken)?;
-    let drawn = figure::write(&mut known, &shelf.library);
+    let report = report::Report::of(&filler.library, places, latency, truth.as_deref(), seconds, taken)?;
+    let drawn = figure::write(&mut known, &filler.library);
     if let Err(TaskError::Cancelled) = drawn {
         return Err(TaskError::Cancelled);
     }
-    Report::of_library(&report, doubted(&shelf.library).or(drawn.err().map(|error| error.to_string())))
+    Report::of_library(&report, doubted(&filler.library).or(drawn.err().map(|error| error.to_string())))
 }
 
 /// Measures the missing points one by one, and repeats a bad one up to `retries` times.
@@ -88,7 +88,7 @@ fn fill(
     known: &Campaign<'_>,
     rig: &mut dyn Rig,
     way: &Way,
-    shelf: &mut Shelf,
+    filler: &mut LibraryFiller,
     retries: u64,
 ) -> Result<(), TaskError> {
     known.with_progress(|heard| {
@@ -100,7 +100,7 @@ fn fill(
             heard.done(progress.done as f64 / progress.total as f64);
             if heard.cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        campaign(rig, way, &known.places.points, shelf, retries, &mut tell)?;
+        campaign(rig, way, &known.places.points, filler, retries, &mut tell)?;
         go_on(heard)
     })
 }
@@ -183,7 +183,7 @@ fn wiring(
     let probe = (layout.inputs.len() > layout.outputs.len()).then_some(middle);
     let expected = Expected::of(known.surface, model, probe, try_options.listen).map_err(TaskError::input)?;
     let found = check_wiring(rig.device(), &expected, &try_options).map_err(TaskError::work)?;
-    Asked::of(known).judge(&found)
+    WiringTestOptions::of(known).judge(&found)
 }
 
 /// Measures the responses from each actuator to the sensors of all, and stores them as the library's last
@@ -192,11 +192,11 @@ fn own(
     known: &Campaign<'_>,
     session: &Session,
     rig: &mut dyn Rig,
-    shelf: &mut Shelf,
+    filler: &mut LibraryFiller,
     middle: Point,
 ) -> Result<(), TaskError> {
     let places = &known.places;
-    let mut missing = shelf.library.in_state(PointState::Missing);
+    let mut missing = filler.library.in_state(PointState::Missing);
     missing.retain(|point| *point >= places.probed);
     if missing.is_empty() {
         return Ok(());
@@ -205,8 +205,8 @@ fn own(
     for point in missing {
         if let Some(channel) = sensors.get(point - places.probed) {
             let fault = session.fault(channel);
-            shelf.keep(point, channel, fault.as_deref())?;
+            filler.keep(point, channel, fault.as_deref())?;
         }
     }
-    shelf.reciprocity(&sensors)
+    filler.reciprocity(&sensors)
 }

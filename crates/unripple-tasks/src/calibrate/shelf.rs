@@ -17,7 +17,7 @@ pub const SAID: &str = "said";
 pub const CHECK: &str = "model";
 
 /// A library that is being filled with measured responses, and what is needed to scale them.
-pub struct Shelf {
+pub struct LibraryFiller {
     /// The library that is being filled.
     pub library: Library,
     /// Number of points measured by a probe or by taps; the others lie at the actuators.
@@ -35,7 +35,7 @@ pub struct Shelf {
     pub made: BTreeSet<usize>,
 }
 
-impl Shelf {
+impl LibraryFiller {
     /// A library to fill, whose first `probed` points are measured by a probe or by taps and whose last
     /// points lie at the actuators; `without` are indices of actuators that are left out.
     pub fn new(
@@ -50,7 +50,7 @@ impl Shelf {
         Self { library, probed, probe: scales.input(PROBE), sensors, without, deaf, made }
     }
 
-    /// This shelf with a probe scale of 1, for taps, whose strength follows from the model.
+    /// This filler with a probe scale of 1, for taps, whose strength follows from the model.
     pub fn by_taps(self) -> Self {
         Self { probe: 1.0, ..self }
     }
@@ -159,7 +159,7 @@ impl Shelf {
     }
 }
 
-impl Sink for Shelf {
+impl Sink for LibraryFiller {
     fn missing(&self) -> Vec<usize> {
         self.library.in_state(PointState::Missing).into_iter().filter(|point| *point < self.probed).collect()
     }

@@ -2,7 +2,7 @@
 
 use super::campaign::Campaign;
 use super::finish::points as counted;
-use super::shelf::{SAID, Shelf};
+use super::shelf::{LibraryFiller, SAID};
 use crate::TaskError;
 use crate::fit;
 use serde_json::{Value, json};
@@ -21,28 +21,28 @@ const KEY: &str = "taps";
 /// so, and why.
 pub(super) fn session(
     known: &Campaign<'_>,
-    shelf: &mut Shelf,
+    filler: &mut LibraryFiller,
     layout: &Layout,
     wires: &Wires,
     settings: &MeasureOptions,
 ) -> Result<TapSession, TaskError> {
     let surface = known.surface;
     let session = TapSession::new(surface, layout, wires, known.model.clone(), settings)?
-        .by_scales(shelf.sensors.clone());
-    let missing = shelf.missing();
+        .by_scales(filler.sensors.clone());
+    let missing = filler.missing();
     if missing.is_empty() {
         return Ok(session);
     }
-    let (session, why) = match fitted(known, shelf)? {
+    let (session, why) = match fitted(known, filler)? {
         Ok(fitted) => (session.by_fitted(&fitted), Value::Null),
         Err(why) => (session, Value::String(why)),
     };
     let log = json!({ KEY: { "fitted": why.is_null(), "why": why } });
-    shelf
+    filler
         .library
         .log_points(missing.into_iter().map(|point| (point, log.clone())).collect::<BTreeMap<_, _>>())?;
-    let said = said(&shelf.library);
-    shelf.library.log(KEY, said.map_or(Value::Null, |said| json!({ SAID: said })))?;
+    let said = said(&filler.library);
+    filler.library.log(KEY, said.map_or(Value::Null, |said| json!({ SAID: said })))?;
     Ok(session)
 }
 
@@ -61,13 +61,13 @@ fn said(library: &Library) -> Option<String> {
 }
 
 /// The model fitted to the responses between actuators, or why there is no good one.
-fn fitted(known: &Campaign<'_>, shelf: &Shelf) -> Result<Result<Fitted, String>, TaskError> {
+fn fitted(known: &Campaign<'_>, filler: &LibraryFiller) -> Result<Result<Fitted, String>, TaskError> {
     if !known.settings.model {
         return Ok(Err("`no_model`".into()));
     }
     let FitOptions { strays, profile, .. } = FitOptions::default();
     let found =
-        known.with_progress(|heard| fit::model(&shelf.library, known.surface, [strays, profile], heard));
+        known.with_progress(|heard| fit::model(&filler.library, known.surface, [strays, profile], heard));
     Ok(match found {
         Err(TaskError::Cancelled) => return Err(TaskError::Cancelled),
         Err(error) => Err(error.to_string()),

@@ -1,7 +1,7 @@
 //! Check of the measured points against a model that is fitted to what the sensors recorded.
 
 use super::campaign::by_taps;
-use super::shelf::{CHECK, Shelf};
+use super::shelf::{CHECK, LibraryFiller};
 use crate::TaskError;
 use crate::late::comes;
 use serde_json::{Value, json};
@@ -27,35 +27,35 @@ const NONE: f64 = 0.02;
 /// Checks each probed point against a model fitted to the sensors' recordings, records doubts, and corrects
 /// responses for the probe's delay and for gains that differ from those of the other points.
 pub fn check(
-    shelf: &mut Shelf,
+    filler: &mut LibraryFiller,
     surface: &Surface,
     model: &ModalResponses,
     settings: &MeasureOptions,
 ) -> Result<(), TaskError> {
-    let measured = (0..shelf.probed).filter(|p| shelf.library.state(*p) == Some(PointState::Measured));
+    let measured = (0..filler.probed).filter(|p| filler.library.state(*p) == Some(PointState::Measured));
     let points: Vec<usize> = measured.collect();
     if points.is_empty() {
-        let earlier = earlier(shelf);
-        shelf.library.set_doubts(COPIES, Vec::new())?;
-        return Ok(shelf.library.set_doubts(CHECK, earlier)?);
+        let earlier = earlier(filler);
+        filler.library.set_doubts(COPIES, Vec::new())?;
+        return Ok(filler.library.set_doubts(CHECK, earlier)?);
     }
-    let probed = probed(&shelf.library, &points, model)?;
+    let probed = probed(&filler.library, &points, model)?;
     let each = points.iter().enumerate();
-    let taken: Vec<Taken> = each.map(|(n, p)| Taken::of(&shelf.library, *p, (&probed, n))).collect();
+    let taken: Vec<Taken> = each.map(|(n, p)| Taken::of(&filler.library, *p, (&probed, n))).collect();
     let options = VerifyOptions {
         model: settings.model,
         probe_delay: settings.probe_delay,
         removed: taken.iter().map(|taken| taken.delay).collect(),
-        dead: shelf.without.clone(),
-        probe: !by_taps(&shelf.library),
+        dead: filler.without.clone(),
+        probe: !by_taps(&filler.library),
         numbers: points.iter().map(|p| p + 1).collect(),
         ..VerifyOptions::default()
     };
-    let heard = heard(shelf, surface, settings)?;
+    let heard = heard(filler, surface, settings)?;
     let found = verify::check(surface, &heard, &probed, &options)?;
-    correct(&mut shelf.library, &points, &taken, &probed, &found)?;
-    doubt(shelf, &points, &found)?;
-    say(shelf, &points, &found, settings.model)
+    correct(&mut filler.library, &points, &taken, &probed, &found)?;
+    doubt(filler, &points, &found)?;
+    say(filler, &points, &found, settings.model)
 }
 
 /// The probed responses of some points.
@@ -74,12 +74,16 @@ fn probed(
 }
 
 /// Responses between actuators, as far as they were measured.
-fn heard(shelf: &Shelf, surface: &Surface, settings: &MeasureOptions) -> Result<Measured, TaskError> {
-    let (library, count) = (&shelf.library, surface.actuators.len());
+fn heard(
+    filler: &LibraryFiller,
+    surface: &Surface,
+    settings: &MeasureOptions,
+) -> Result<Measured, TaskError> {
+    let (library, count) = (&filler.library, surface.actuators.len());
     let mut responses = vec![Vec::new(); count * count];
     let mut power = [0.0, 0.0];
     for sensor in 0..count {
-        let point = shelf.probed + sensor;
+        let point = filler.probed + sensor;
         if library.state(point) != Some(PointState::Measured) {
             continue;
         }
@@ -195,7 +199,7 @@ fn before(taken: &[Taken]) -> Option<f64> {
 
 /// Records the doubts. If no model was compared, doubts from an earlier comparison stay for points that
 /// were not measured again.
-fn doubt(shelf: &mut Shelf, points: &[usize], found: &Verified) -> Result<(), TaskError> {
+fn doubt(filler: &mut LibraryFiller, points: &[usize], found: &Verified) -> Result<(), TaskError> {
     let of = |check: &str, doubt: &Doubted| {
         Doubt::of(check, &doubt.what).at(doubt.points.iter().map(|p| points[*p]).collect())
     };
@@ -204,34 +208,34 @@ fn doubt(shelf: &mut Shelf, points: &[usize], found: &Verified) -> Result<(), Ta
     let mut doubts: Vec<Doubt> = others.map(|doubt| of(CHECK, doubt)).collect();
     if matches!(found.model, Checked::Not { .. }) {
         let said: Vec<String> = copied.iter().chain(&doubts).map(|doubt| doubt.what.clone()).collect();
-        doubts.extend(earlier(shelf).into_iter().filter(|doubt| !said.contains(&doubt.what)));
+        doubts.extend(earlier(filler).into_iter().filter(|doubt| !said.contains(&doubt.what)));
     }
-    shelf.library.set_doubts(COPIES, copied)?;
-    Ok(shelf.library.set_doubts(CHECK, doubts)?)
+    filler.library.set_doubts(COPIES, copied)?;
+    Ok(filler.library.set_doubts(CHECK, doubts)?)
 }
 
 /// Doubts of an earlier check against a model that still hold: those about points that were not measured in this run, and those about the
 /// whole library unless the responses between actuators were measured anew.
-fn earlier(shelf: &Shelf) -> Vec<Doubt> {
-    let own = shelf.probed..shelf.library.points().len();
-    let anew = !own.is_empty() && own.clone().all(|point| shelf.made.contains(&point));
+fn earlier(filler: &LibraryFiller) -> Vec<Doubt> {
+    let own = filler.probed..filler.library.points().len();
+    let anew = !own.is_empty() && own.clone().all(|point| filler.made.contains(&point));
     let left = |doubt: &Doubt| {
-        let others = doubt.points.iter().copied().filter(|point| !shelf.made.contains(point));
+        let others = doubt.points.iter().copied().filter(|point| !filler.made.contains(point));
         let others: Vec<usize> = others.collect();
         let stays = if doubt.points.is_empty() { !anew } else { !others.is_empty() };
         stays.then(|| doubt.clone().at(others))
     };
-    shelf.library.doubts().iter().filter(|doubt| doubt.check == CHECK).filter_map(left).collect()
+    filler.library.doubts().iter().filter(|doubt| doubt.check == CHECK).filter_map(left).collect()
 }
 
 /// Records the result of the check in the library's log.
-fn say(shelf: &mut Shelf, points: &[usize], found: &Verified, asked: bool) -> Result<(), TaskError> {
-    let library = &mut shelf.library;
+fn say(filler: &mut LibraryFiller, points: &[usize], found: &Verified, asked: bool) -> Result<(), TaskError> {
+    let library = &mut filler.library;
     let log = match &found.model {
         Checked::Not { why } => {
             // Points that a model was found for, and that are as they were, need no word.
             let held = library.logged(CHECK).is_some_and(|log| log["checked"] == true);
-            if held && points.iter().all(|point| !shelf.made.contains(point)) {
+            if held && points.iter().all(|point| !filler.made.contains(point)) {
                 return Ok(());
             }
             let why = if asked { why.as_str() } else { "`no_model`" };

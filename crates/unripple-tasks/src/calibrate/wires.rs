@@ -21,7 +21,7 @@ pub struct Found {
 }
 
 /// Options of the wiring test: actuators that are left out, and the faults that are accepted.
-pub struct Asked<'a> {
+pub struct WiringTestOptions<'a> {
     /// The actuators' names.
     actuators: Vec<&'a str>,
     /// Names of the actuators to be left out.
@@ -32,7 +32,7 @@ pub struct Asked<'a> {
     any: bool,
 }
 
-impl<'a> Asked<'a> {
+impl<'a> WiringTestOptions<'a> {
     /// The options of the wiring test, taken from those of a calibration.
     pub fn of(known: &'a Campaign<'_>) -> Self {
         Self {
@@ -139,32 +139,32 @@ mod tests {
         WiringReport { outputs, inputs, latency: 0 }
     }
 
-    fn asked<'a>(without: &'a [String], any: bool) -> Asked<'a> {
-        Asked { actuators: vec!["a1", "a2", "a3", "a4"], without, model: true, any }
+    fn options<'a>(without: &'a [String], any: bool) -> WiringTestOptions<'a> {
+        WiringTestOptions { actuators: vec!["a1", "a2", "a3", "a4"], without, model: true, any }
     }
 
     #[test]
     fn the_others_go_on_without_a_dead_actuator() {
-        let found = asked(&[], false).judge(&report(&["a3"], &[])).unwrap();
+        let found = options(&[], false).judge(&report(&["a3"], &[])).unwrap();
         assert_eq!((found.dead, found.faults.len()), (vec![2], 0));
         let said = "actuator `a3` is dead: no sensor receives its burst (output 3), and its own sensor receives nothing";
         assert!(found.notes.len() == 1 && found.notes[0].starts_with(said), "{:?}", found.notes);
         // Actuators that are named dead are not reported again.
-        let found = asked(&["a3".into()], false).judge(&report(&["a3"], &[])).unwrap();
+        let found = options(&["a3".into()], false).judge(&report(&["a3"], &[])).unwrap();
         assert_eq!(found, Found { dead: vec![2], ..Found::default() });
         // Nor is one that is asked for dead.
-        let found = asked(&["a1".into()], false).judge(&report(&["a3"], &[])).unwrap();
+        let found = options(&["a1".into()], false).judge(&report(&["a3"], &[])).unwrap();
         assert_eq!((found.dead, found.notes.len()), (vec![0, 2], 1));
     }
 
     #[test]
     fn anything_else_stops_unless_it_is_accepted() {
-        let stopped = |report: &WiringReport| asked(&[], false).judge(report).unwrap_err().to_string();
+        let stopped = |report: &WiringReport| options(&[], false).judge(report).unwrap_err().to_string();
         let said = stopped(&report(&["a3"], &["a1"]));
         assert!(said.contains("actuator `a1` is reversed") && said.contains("`any_wiring`"), "{said}");
         let said = stopped(&report(&["a1", "a2", "a3"], &[]));
         assert!(said.contains("actuator `a2` is silent") && said.contains("`without` a1"), "{said}");
-        let found = asked(&[], true).judge(&report(&["a3"], &["a1"])).unwrap();
+        let found = options(&[], true).judge(&report(&["a3"], &["a1"])).unwrap();
         assert_eq!((found.dead, found.faults), (vec![2], vec!["actuator `a1` is reversed".to_owned()]));
     }
 

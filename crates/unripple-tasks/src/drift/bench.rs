@@ -20,7 +20,7 @@ const MARGIN: usize = 64;
 const LONGEST: f64 = 3600.0;
 
 /// An open device that plays pings and records the sensors' signals.
-pub(super) struct Bench {
+pub(super) struct PingDevice {
     rig: Box<dyn Rig>,
     layout: Layout,
     wires: Wires,
@@ -36,7 +36,7 @@ pub(super) struct Bench {
     lost: u64,
 }
 
-impl Bench {
+impl PingDevice {
     /// Opens the device, and measures its latency.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! The model whose tension is followed: that of a surface file, or one fitted to the responses between a library's actuators.
 
-use crate::fit::{FITTED_TO, Heard, model};
+use crate::fit::{FITTED_TO, Measurements, model};
 use crate::{Progress, SurfaceAsk, TaskError, fit, judge, source};
 use unripple::core::{ModalResponses, Pole, Responses, Surface};
 use unripple::dsp::convolve;
@@ -31,7 +31,7 @@ pub(super) struct Known {
 /// A library with the model fitted to it.
 struct Measured {
     name: String,
-    heard: Heard,
+    measurements: Measurements,
     fitted: Fitted,
     /// Factor by which each sensor's signal is multiplied, and the drive that a sample at full scale stands
     /// for, if the library's log states it.
@@ -90,7 +90,7 @@ impl Known {
         }
         source::warn(&library, progress);
         let usual = fit::Ask::default();
-        let (heard, fitted) = model(&library, &surface, [usual.strays, usual.profile], progress)?;
+        let (measurements, fitted) = model(&library, &surface, [usual.strays, usual.profile], progress)?;
         if let Verdict::Doubtful { why, .. } = &fitted.verdict {
             return Err(TaskError::Work(format!(
                 "{name}: expected a model that explains the sensor signals of its actuators, found a doubtful one: {why}"
@@ -101,12 +101,12 @@ impl Known {
         Ok(Self {
             modal: fitted.modal().clone(),
             against: format!("when {name} was measured"),
-            dead: heard.dead.clone(),
+            dead: measurements.dead.clone(),
             library: Some(Measured {
                 scales: surface.actuators.iter().map(|actuator| scale(&actuator.name)).collect(),
                 output: told["output"].as_f64(),
                 name,
-                heard,
+                measurements,
                 fitted,
             }),
             surface,
@@ -137,7 +137,7 @@ impl Known {
     /// Lowest and highest frequency of the pings, as shares of the top of the surface's band: high
     /// frequencies are most sensitive to tension, and a fit leaves out the highest.
     pub fn ping_band(&self) -> [f64; 2] {
-        let fitted = |library: &Measured| library.heard.band[1] / self.modal.conditions.band[1];
+        let fitted = |library: &Measured| library.measurements.band[1] / self.modal.conditions.band[1];
         let top = self.library.as_ref().map_or(1.0, fitted);
         PingOptions::default().band.map(|share| share * top)
     }
@@ -155,13 +155,13 @@ impl Known {
     /// Those of the trackers; [`TaskError::Work`] of a library that its model does not explain.
     pub fn tracker(&self, ping: &[Vec<f64>], noise: f64, range: f64) -> Result<Tracker, TaskError> {
         let options = Tracking { noise, range, model: MODEL, ..Tracking::default() };
-        let Some(Measured { name, heard, fitted, .. }) = &self.library else {
+        let Some(Measured { name, measurements, fitted, .. }) = &self.library else {
             let shares = bending_shares(&self.surface, &self.modal)?;
             return Ok(Tracker::of_surface(&self.surface, &self.modal, &shares, &options)?);
         };
         let fresh = fitted.tracker(&options)?.without(&self.dead);
         let mut then = fresh.clone();
-        match then.observe(ping, &sounded(ping, heard))? {
+        match then.observe(ping, &sounded(ping, measurements))? {
             Drift::Followed { tension, .. } => Ok(fresh.with_zero(tension)?),
             Drift::Unexplained { excess, limit, .. } => Err(TaskError::Work(format!(
                 "{name}: expected a model whose sensor signals after a ping agree with those of the measured responses within {limit:.0} \
@@ -188,9 +188,10 @@ fn bending_shares(surface: &Surface, modal: &ModalResponses) -> Result<Vec<f64>,
 
 /// Sensor signals that a drive would have caused when the library was measured, as long as the library's
 /// responses.
-fn sounded(drive: &[Vec<f64>], heard: &Heard) -> Vec<Vec<f64>> {
-    let rate = heard.measured.rate;
-    let pairs: Vec<&Vec<f64>> = heard.measured.pairs.iter().flat_map(|pairs| &pairs.responses).collect();
+fn sounded(drive: &[Vec<f64>], measurements: &Measurements) -> Vec<Vec<f64>> {
+    let rate = measurements.measured.rate;
+    let pairs: Vec<&Vec<f64>> =
+        measurements.measured.pairs.iter().flat_map(|pairs| &pairs.responses).collect();
     let samples = pairs.iter().map(|response| response.len()).max().unwrap_or(0);
     let sensor = |sensor: usize| {
         let mut sum = vec![0.0; samples];

@@ -1,6 +1,6 @@
 //! Measurement of a sheet's tension by pings.
 
-use super::bench::Bench;
+use super::bench::PingDevice;
 use super::known::Known;
 use super::report::{Report, Step};
 use super::{Ask, Cost};
@@ -46,23 +46,23 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let known = Known::of(&ask.surface, progress)?;
     go_on(progress)?;
     progress.stage("device");
-    let mut bench = Bench::open(ask, &known, progress)?;
+    let mut device = PingDevice::open(ask, &known, progress)?;
     let limit = known.surface.emission.limit;
     let options = PingOptions { band: known.ping_band(), limit, ..PingOptions::default() };
     let mut ping = Ping::design(&known.modal, &options)?;
     known.dead.iter().for_each(|actuator| ping.drive[*actuator].fill(0.0));
-    ping.drive = bench.as_sent(&ping.drive);
+    ping.drive = device.as_sent(&ping.drive);
     go_on(progress)?;
     progress.stage("noise");
-    let noise = bench.noise(progress)?;
+    let noise = device.noise(progress)?;
     // No noise at all is none that is known.
     let mut tracker = known.tracker(&ping.drive, noise.max(f64::MIN_POSITIVE.sqrt()), ask.range)?;
-    let steps = follow(ask, &mut bench, &mut tracker, &ping, progress)?;
+    let steps = follow(ask, &mut device, &mut tracker, &ping, progress)?;
     go_on(progress)?;
     progress.stage("focus");
     let missed = missed(&known, &options);
     let mut report = Report::of(&known, &ping, steps, (missed, LAW));
-    (report.noise, report.latency_samples) = (noise, bench.latency);
+    (report.noise, report.latency_samples) = (noise, device.latency);
     if report.change.is_some() {
         report.focus = Some(Cost::of(&known.surface, &known.modal, tracker.responses(0.0))?);
     }
@@ -93,16 +93,16 @@ fn check(ask: &Ask) -> Result<(), TaskError> {
 /// Plays the pings, and returns an estimate of the tension after each.
 fn follow(
     ask: &Ask,
-    bench: &mut Bench,
+    device: &mut PingDevice,
     tracker: &mut Tracker,
     ping: &Ping,
     progress: &mut dyn Progress,
 ) -> Result<Vec<Step>, TaskError> {
     progress.stage("pings");
-    let (period, count) = (bench.samples(PERIOD), (ask.seconds / PERIOD).round() as usize);
+    let (period, count) = (device.samples(PERIOD), (ask.seconds / PERIOD).round() as usize);
     let mut steps = Vec::with_capacity(count);
     for n in 1..=count {
-        let heard = bench.listen(&ping.drive, period, progress)?;
+        let heard = device.listen(&ping.drive, period, progress)?;
         let drift = tracker.observe(&ping.drive, &heard)?;
         steps.push(Step::of(n as f64 * PERIOD, &drift));
         progress.done(n as f64 / count as f64);

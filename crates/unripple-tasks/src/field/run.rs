@@ -124,7 +124,7 @@ fn measured(
     progress.stage("field");
     let field = Field::new(responses, &drive, CELLS).map_err(TaskError::input)?;
     if animated {
-        figures::room(&field, ask.frames, ask.movie_s)?;
+        figures::check_animation(&field, ask.frames, ask.movie_s)?;
     }
     let aims = aims(ask, places, &field, &drive, period)?;
     let last = aims.iter().map(|aim| aim.instant).fold(0.0, f64::max);
@@ -148,7 +148,7 @@ fn measured(
         report = report.without_scale();
     }
     let responses = models.under.unwrap_or(models.free);
-    let when = if ask.instants_s.is_empty() { When::Fastest } else { When::Asked };
+    let when = if ask.instants_s.is_empty() { When::Fastest } else { When::Requested };
     Ok((Made { report, drive, judged, aims, surface, responses, scaled: !unscaled, when }, movie))
 }
 

@@ -87,7 +87,7 @@ pub fn animation(made: &Made, span: Option<[f64; 2]>, frames: usize) -> Result<O
         return Err(TaskError::ask("frames", "at least 1", frames));
     }
     let field = Field::new(&made.responses, &made.drive, CELLS).map_err(TaskError::input)?;
-    figures::room(&field, frames, span)?;
+    figures::check_animation(&field, frames, span)?;
     let scene = scene(&made.surface, &made.aims, &made.judged);
     figures::movie(&field, &scene, around(&made.aims, span), frames)
 }

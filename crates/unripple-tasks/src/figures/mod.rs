@@ -10,7 +10,7 @@ mod when;
 pub use columns::Columns;
 pub use drive::channels;
 pub use maps::{Scene, drawn, felt, peaks, snapshots};
-pub use movie::{MOST_FRAMES, movie, room};
+pub use movie::{MOST_FRAMES, check_animation, movie};
 pub use traces::traces;
 pub use when::When;
 

@@ -18,7 +18,7 @@ const MOST_CELLS: usize = 50_000_000;
 ///
 /// # Errors
 /// [`TaskError::Ask`] that names `frames` or `movie_s`.
-pub fn room(field: &Field, frames: usize, span: Option<[f64; 2]>) -> Result<(), TaskError> {
+pub fn check_animation(field: &Field, frames: usize, span: Option<[f64; 2]>) -> Result<(), TaskError> {
     let Some(cells) = field.grid() else { return Ok(()) };
     let each = cells.columns * cells.rows;
     if frames.saturating_mul(each) > MOST_CELLS {

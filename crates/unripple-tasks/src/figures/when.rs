@@ -14,7 +14,7 @@ pub enum When {
     /// The velocity of the target is largest.
     Fastest,
     /// The request specified the instant; what happens at it is not known.
-    Asked,
+    Requested,
 }
 
 impl When {
@@ -31,8 +31,8 @@ impl When {
             (Self::Waveform, false) => "peak of the first waveform",
             (Self::Fastest, true) => "instant of largest velocity",
             (Self::Fastest, false) => "instant of the first target's largest velocity",
-            (Self::Asked, true) => "instant asked for",
-            (Self::Asked, false) => "instant asked for at the first target",
+            (Self::Requested, true) => "instant asked for",
+            (Self::Requested, false) => "instant asked for at the first target",
         }
     }
 }

@@ -23,7 +23,7 @@ const LOWEST: f64 = 1.2;
 const TOP: f64 = 0.9;
 
 /// Measured responses of a library, split into those between actuators and those at all other points.
-pub struct Heard {
+pub struct Measurements {
     /// Responses between actuators: from each actuator to the sensors of all.
     pub measured: Measured,
     /// The responses at all other points.
@@ -38,7 +38,7 @@ pub struct Heard {
     pub band: [f64; 2],
 }
 
-impl Heard {
+impl Measurements {
     /// Reads the responses between a library's actuators, and those at all other points.
     pub fn of(library: &Library, surface: &Surface, progress: &mut dyn Progress) -> Result<Self, TaskError> {
         let (all, damage) = library.intact()?;

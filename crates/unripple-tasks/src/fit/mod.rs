@@ -9,7 +9,7 @@ mod run;
 
 pub use ask::Ask;
 pub(crate) use fill::FITTED_TO;
-pub(crate) use heard::Heard;
+pub(crate) use heard::Measurements;
 pub use report::Report;
 pub(crate) use run::model;
 pub use run::run;

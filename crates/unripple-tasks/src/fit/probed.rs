@@ -1,6 +1,6 @@
 //! The probed points of a library, checked against the model fitted to its actuators.
 
-use super::heard::Heard;
+use super::heard::Measurements;
 use crate::TaskError;
 use crate::late::comes;
 use unripple::core::{SampledResponses, Surface};
@@ -25,22 +25,22 @@ pub struct Probed {
 
 impl Probed {
     /// Checks the probed points of a library against a fitted model.
-    pub fn of(fitted: &Fitted, surface: &Surface, heard: &Heard) -> Result<Self, TaskError> {
+    pub fn of(fitted: &Fitted, surface: &Surface, measurements: &Measurements) -> Result<Self, TaskError> {
         let options = VerifyOptions {
-            numbers: heard.numbers.clone(),
-            dead: heard.dead.clone(),
-            probe: heard.probe,
+            numbers: measurements.numbers.clone(),
+            dead: measurements.dead.clone(),
+            probe: measurements.probe,
             ..VerifyOptions::default()
         };
-        if heard.probed.points.is_empty() {
-            let good = heard.probed.clone();
+        if measurements.probed.points.is_empty() {
+            let good = measurements.probed.clone();
             let (left_out, doubts, notes) = (Vec::new(), Vec::new(), Vec::new());
             return Ok(Self { good, left_out, doubts, notes, gain: 1.0 });
         }
-        let found = check_by(fitted, surface, &heard.measured, &heard.probed, &options)?;
+        let found = check_by(fitted, surface, &measurements.measured, &measurements.probed, &options)?;
         let doubted = |p: &usize| found.doubts.iter().any(|doubt| doubt.points.contains(p));
-        let kept: Vec<usize> = (0..heard.probed.points.len()).filter(|p| !doubted(p)).collect();
-        let good = heard.probed.select(&kept).map_err(TaskError::work)?;
+        let kept: Vec<usize> = (0..measurements.probed.points.len()).filter(|p| !doubted(p)).collect();
+        let good = measurements.probed.select(&kept).map_err(TaskError::work)?;
         let factors: Vec<f64> = kept
             .iter()
             .map(|p| found.points.get(*p).and_then(|point| point.correction).unwrap_or(1.0))

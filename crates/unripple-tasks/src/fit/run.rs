@@ -1,6 +1,6 @@
 //! Fits the model to a library, and computes its responses anywhere.
 
-use super::heard::Heard;
+use super::heard::Measurements;
 use super::{Ask, Report, fill, probed::Probed, report};
 use crate::numbers::accuracy;
 use crate::{Progress, Record, TaskError, go_on, grid, source};
@@ -46,8 +46,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let wanted = wanted(ask, &surface)?;
     room(ask)?;
     let start = Instant::now();
-    let (heard, fitted) = model(&library, &surface, [ask.strays, ask.profile], progress)?;
-    let probed = Probed::of(&fitted, &surface, &heard)?;
+    let (measurements, fitted) = model(&library, &surface, [ask.strays, ask.profile], progress)?;
+    let probed = Probed::of(&fitted, &surface, &measurements)?;
     let fitted = fitted.scaled(probed.gain);
     let seconds = start.elapsed().as_secs_f64();
     let mut report = Report::of(&name, &surface, &fitted, seconds);
@@ -79,21 +79,24 @@ pub(crate) fn model(
     surface: &Surface,
     [strays, profile]: [usize; 2],
     progress: &mut dyn Progress,
-) -> Result<(Heard, Fitted), TaskError> {
-    let heard = Heard::of(library, surface, progress)?;
-    progress.tell(&format!("fitting {} responses, which takes minutes in a band of some kHz", heard.count()));
+) -> Result<(Measurements, Fitted), TaskError> {
+    let measurements = Measurements::of(library, surface, progress)?;
+    progress.tell(&format!(
+        "fitting {} responses, which takes minutes in a band of some kHz",
+        measurements.count()
+    ));
     go_on(progress)?;
     progress.stage("fit");
     let plan = FitOptions {
-        band: Some(heard.band),
+        band: Some(measurements.band),
         profile,
         strays,
-        reach: (KNOWN / heard.band[1]).clamp(1.4, 2.8),
+        reach: (KNOWN / measurements.band[1]).clamp(1.4, 2.8),
         ..FitOptions::default()
     };
-    let fitted = unripple_calibrate::fit(surface, &heard.measured, &plan)?;
+    let fitted = unripple_calibrate::fit(surface, &measurements.measured, &plan)?;
     go_on(progress)?;
-    Ok((heard, fitted))
+    Ok((measurements, fitted))
 }
 
 /// Why a doubtful fit counts as failed, and whether anything was written.

@@ -9,7 +9,7 @@ mod stepped;
 mod touches;
 
 pub use ask::{Ask, TouchAsk};
-pub use open::{Opener, late, opener};
+pub use open::{Opener, latency, opener};
 pub use report::Report;
 pub use run::{follower, run};
 pub use stepped::Stepped;

@@ -106,7 +106,7 @@ pub fn opener(options: &DeviceAsk, hears: bool) -> Opener {
 
 /// Latency in samples from drive to input on a device that [`opener`] opens, for blocks of `block` samples; 0 on a
 /// virtual surface.
-pub fn late(options: &DeviceAsk, block: usize) -> usize {
+pub fn latency(options: &DeviceAsk, block: usize) -> usize {
     if options.device == DeviceKind::Virtual { 0 } else { (LEAD + 1) * block }
 }
 

@@ -7,7 +7,7 @@ use unripple::core::{Server, State, Surface};
 use unripple_calibrate::Drift;
 
 use unripple_devices::Feeling;
-use unripple_live::{Engine, Level, Percentiles, Pulse, Stage, Window};
+use unripple_live::{Engine, Level, Percentiles, PlayState, Stage, Window};
 use unripple_player::Count;
 
 /// Report of a session of `play`, in SI units.
@@ -176,7 +176,7 @@ impl Report {
     }
 
     /// Samples the fingers' sensations, the tension and the device's state, and returns a line on them; empty if there is nothing to say.
-    pub fn look(&mut self, stage: &mut Stage, pulse: Option<&Pulse>) -> String {
+    pub fn look(&mut self, stage: &mut Stage, play_state: Option<&PlayState>) -> String {
         let mut line = format!("{:7.1} s", stage.time());
         self.feelings = stage.feelings();
         for feeling in &self.feelings {
@@ -184,25 +184,27 @@ impl Report {
             line += &told(feeling, self.without_scale);
         }
         if let Some(drift) = stage.drift() {
-            let explained = !drift.asks_for_calibration();
+            let explained = !drift.needs_calibration();
             self.tension = Some(Tension { ratio: drift.tension(), explained });
             let _ = match drift {
                 Drift::Followed { tension, .. } => write!(line, "  tension {tension:.5}"),
                 Drift::Unexplained { .. } => write!(line, "  tension unknown: calibrate again"),
             };
         }
-        if let Some(pulse) = pulse {
-            self.lost_blocks = pulse.lost;
-            self.priority = Some(pulse.priority.clone());
-            if pulse.state != State::Running {
-                let _ = write!(line, "  device {}", pulse.state);
+        if let Some(play_state) = play_state {
+            self.lost_blocks = play_state.lost;
+            self.priority = Some(play_state.priority.clone());
+            if play_state.state != State::Running {
+                let _ = write!(line, "  device {}", play_state.state);
             }
             let load = stage.conductor().desk().meters().load();
             if load > 0.7 {
                 let _ = write!(line, "  load {:.0} %: close to overload", 100.0 * load);
             }
         }
-        match self.feelings.is_empty() && pulse.is_none_or(|pulse| pulse.state == State::Running) {
+        match self.feelings.is_empty()
+            && play_state.is_none_or(|play_state| play_state.state == State::Running)
+        {
             true => String::new(),
             false => line,
         }

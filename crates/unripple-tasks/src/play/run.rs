@@ -15,7 +15,7 @@ use unripple::effects::EffectSet;
 use unripple::physics::Medium;
 use unripple_calibrate::{Ping, PingOptions};
 use unripple_live::{
-    Engine, FocusWorker, Follower, LONGEST_WINDOW, Level, LiveOptions, Pulse, Stage, Window,
+    Engine, FocusWorker, Follower, LONGEST_WINDOW, Level, LiveOptions, PlayState, Stage, Window,
 };
 use unripple_store::{load_effects, write_kept_wav};
 use unripple_touch::Sources;
@@ -212,16 +212,16 @@ impl Session<'_> {
 
     /// Plays by the device's clock, on a separate thread.
     fn run(&mut self, engine: &mut Engine, seconds: Option<f64>) -> Result<(), TaskError> {
-        engine.run(seconds, |stage, pulse| {
-            self.tell(stage, Some(pulse));
+        engine.run(seconds, |stage, play_state| {
+            self.tell(stage, Some(play_state));
             !self.progress.cancelled()
         })?;
         Ok(())
     }
 
-    fn tell(&mut self, stage: &mut Stage, pulse: Option<&Pulse>) {
+    fn tell(&mut self, stage: &mut Stage, play_state: Option<&PlayState>) {
         self.told = stage.time();
-        let line = self.report.look(stage, pulse);
+        let line = self.report.look(stage, play_state);
         if !line.is_empty() {
             self.progress.tell(&line);
         }

@@ -123,7 +123,7 @@ fn followed(
     let played = play(model, waves, &silent, &settings).map_err(TaskError::input)?;
     let drive = played.drive.as_emitted();
     let rate = drive.rate();
-    let targets = played.points.iter().zip(&played.asked);
+    let targets = played.points.iter().zip(&played.prescribed);
     let wanted: Vec<Wanted> =
         targets.map(|(points, asked)| Wanted { points: points.clone(), samples: asked.clone() }).collect();
     let field = Field::new(judging, &drive, 1.0).map_err(TaskError::input)?;

@@ -99,5 +99,5 @@ impl Simulation {
 }
 
 fn drift(drift: &Drift) -> Value {
-    json!({ "tension": drift.tension(), "explained": !drift.asks_for_calibration() })
+    json!({ "tension": drift.tension(), "explained": !drift.needs_calibration() })
 }

@@ -79,11 +79,11 @@ impl Away {
         let (known, stop) = (Arc::new(Mutex::new(Known::default())), Arc::new(AtomicBool::new(false)));
         let (told, ended) = (known.clone(), stop.clone());
         let play = move || {
-            let result = engine.run(None, |stage, pulse| {
+            let result = engine.run(None, |stage, play_state| {
                 let mut known = lock(&told);
                 known.look(stage);
-                known.lost = pulse.lost;
-                known.wrong = match &pulse.state {
+                known.lost = play_state.lost;
+                known.wrong = match &play_state.state {
                     State::Running => None,
                     state => Some(format!("{state:?}")),
                 };

@@ -8,7 +8,7 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use unripple_calibrate::Interpolation;
-use unripple_tasks::play::{Opener, follower, late, opener};
+use unripple_tasks::play::{Opener, follower, latency, opener};
 use unripple_tasks::{Progress, Source, SurfaceAsk, TaskError, apart, go_on, judge, source};
 
 /// Bytes of a token that is made here, before they are letters. 128 bits cannot be guessed.
@@ -134,7 +134,7 @@ fn follow(ask: &Ask) -> Result<Option<Follow>, TaskError> {
     let device = ask.device.clone();
     Ok(Some(Arc::new(move |surface, settings, block| {
         let followed = judge::model(surface, None, &[])
-            .and_then(|model| follower(surface, &model, settings, late(&device, block)));
+            .and_then(|model| follower(surface, &model, settings, latency(&device, block)));
         followed.map_err(|error| error.to_string())
     })))
 }

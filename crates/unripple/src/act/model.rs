@@ -9,27 +9,30 @@ use std::f64::consts::TAU;
 /// ms for the highest mode, and far less for lower ones.
 const MESHED: f64 = 1e-4;
 
-/// Frequencies up to which the next mode above an empty band is looked for, one after the other, as multiples of its top: near it
-/// first, since few modes are computed quickly.
+/// Frequencies, as multiples of the top of an empty band, up to which the next mode above is searched for,
+/// one after the other: first near the band, since few modes are computed quickly.
 const FARTHER: [f64; 6] = [1.1, 1.3, 2.0, 4.0, 8.0, 16.0];
 
-/// Relative accuracy to which the natural frequencies of a surface are computed: its own, or by default that of [`ResponseOptions`] for
-/// plain rectangles, 1e-4 where a mesh is needed. Where that is out of reach, the surface's own is refused, and in place of the default
-/// the best that can be reached is taken ([`Accuracy::or_best`]).
+/// Relative accuracy to which the natural frequencies of a surface are computed: the one that its file
+/// states, or by default that of [`ResponseOptions`] for plain rectangles and 1e-4 where a mesh is needed.
+/// If an accuracy from the file is out of reach, that is an error; in place of the default, the best that
+/// can be reached is used ([`Accuracy::or_best`]).
 pub fn accuracy(surface: &Surface) -> Accuracy {
     let plain = matches!(surface.outline.shape, Shape::Rectangle { .. })
         && surface.outline.holes.is_empty()
-        && surface.sheet.uneven.is_nothing();
+        && surface.sheet.uneven.is_uniform();
     Accuracy::of(surface.accuracy, if plain { ResponseOptions::default().accuracy.aim } else { MESHED })
 }
 
-/// A note that natural frequencies are less accurate than was aimed at, where that was out of reach.
+/// A note that the natural frequencies of `responses` are less accurate than [`accuracy()`] aims at; `None`
+/// if they are not.
 pub fn inexact(surface: &Surface, responses: &Responses) -> Option<Note> {
     let Responses::Modal(modal) = responses else { return None };
     less_accurate(modal.frequency_error, accuracy(surface).aim)
 }
 
-/// A note that natural frequencies have a larger `error` than the one aimed at, both ratios to the frequencies; `None` if they have not.
+/// A note that the relative error of natural frequencies, `error`, is larger than the intended one, `aim`
+/// (both ratios); `None` if it is not.
 pub fn less_accurate(error: f64, aim: f64) -> Option<Note> {
     let text = || {
         format!(
@@ -40,7 +43,8 @@ pub fn less_accurate(error: f64, aim: f64) -> Option<Note> {
     (error > aim).then(|| Note { topic: "accuracy", text: text() })
 }
 
-/// The responses of a surface with fingers at `contacts`, on modes up to `max_hz` (Hz), or those of its band.
+/// Computes the responses of a surface with fingers at `contacts`, from modes up to `max_hz` (Hz; by
+/// default the top of its band).
 ///
 /// # Errors
 /// [`ActError::Empty`] if no mode is within the band; those of [`responses`].

@@ -5,8 +5,8 @@ use unripple_core::{Decay, Edge, Edges, Outline, Shape, Surface};
 use unripple_field::{Aim, MeasureOptions, measure};
 use unripple_focus::{Options, Target, focus};
 use unripple_paper::study::{
-    Bench, CELLS, Compared, Replay, Sampling, against_band, against_noise, against_period, against_window,
-    size,
+    CELLS, Compared, ContrastModel, Replay, Sampling, against_band, against_noise, against_period,
+    against_window, size,
 };
 use unripple_physics::design::papers_surface;
 
@@ -14,7 +14,8 @@ use unripple_physics::design::papers_surface;
 const WINDOWS: [f64; 8] = [0.005, 0.010, 0.020, 0.030, 0.050, 0.075, 0.100, 0.150];
 const ACTUATORS: [usize; 6] = [1, 2, 4, 8, 16, 32];
 
-static PAPER: LazyLock<Bench> = LazyLock::new(|| Bench::of(&papers_surface(), CELLS).unwrap());
+static PAPER: LazyLock<ContrastModel> =
+    LazyLock::new(|| ContrastModel::of(&papers_surface(), CELLS).unwrap());
 
 /// Placements and targets of the paper's membrane: enough for means to hold within a few per cent.
 const SAMPLING: Sampling =
@@ -83,10 +84,10 @@ fn square_roots_hold_where_modes_are_many() {
     surface.sheet.decay = Decay::Time(2.0);
     surface.emission.band = [0.0, 1000.0];
     surface.emission.rate = 4000.0;
-    let bench = Bench::of(&surface, 1.0).unwrap();
+    let model = ContrastModel::of(&surface, 1.0).unwrap();
     let sampling = Sampling { placements: 60, targets: 1, depth: [0.05, 0.2], margin: 0.15, seed: 3 };
     let windows = [0.060, 0.120];
-    let rows = against_window(&bench, &surface, &windows, &[1, 2, 4, 8], &sampling);
+    let rows = against_window(&model, &surface, &windows, &[1, 2, 4, 8], &sampling);
     within(&rows, |_| 0.05);
     for window in windows {
         let (found, expected) = exponents(at(&rows, 1, window), at(&rows, 8, window), 8.0);
@@ -171,9 +172,9 @@ fn the_algebra_measures_what_the_field_measures() {
 fn plates_follow_the_closed_form_too() {
     // Nothing above is peculiar to films: a slack plate of strengthened glass, supported.
     let surface = glass();
-    let bench = Bench::of(&surface, CELLS).unwrap();
+    let model = ContrastModel::of(&surface, CELLS).unwrap();
     let sampling = Sampling { placements: 40, targets: 2, depth: [20e-3, 50e-3], margin: 80e-3, seed: 5 };
-    let rows = against_window(&bench, &surface, &[0.010, 0.030, 0.100], &[1, 4, 16], &sampling);
+    let rows = against_window(&model, &surface, &[0.010, 0.030, 0.100], &[1, 4, 16], &sampling);
     within(&rows, |_| 0.15);
 }
 

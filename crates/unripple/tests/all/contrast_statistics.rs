@@ -1,7 +1,7 @@
 //! Contrast predicted by statistics of modes against simulation: five surfaces, actuators at the rim and inside, many numbers and windows.
 
 use unripple_core::*;
-use unripple_paper::study::{Bench, CELLS, Compared, Sampling, against_window};
+use unripple_paper::study::{CELLS, Compared, ContrastModel, Sampling, against_window};
 use unripple_physics::design::{Predicted, Statistics, papers_surface};
 use unripple_physics::{Medium, design};
 
@@ -54,9 +54,9 @@ fn apart(of: &[(bool, f64)]) -> [f64; 2] {
 fn statistics_of_modes_follow_simulation_over_actuators_and_windows() {
     let (mut by_modes, mut by_band) = (Vec::new(), Vec::new());
     for (name, surface, rim) in surfaces() {
-        let bench = Bench::of(&surface, CELLS).unwrap();
+        let model = ContrastModel::of(&surface, CELLS).unwrap();
         let (width, height) = surface.outline.extent();
-        let (narrow, lambda) = (width.min(height), bench.conditions().lambda_min);
+        let (narrow, lambda) = (width.min(height), model.conditions().lambda_min);
         for (place, depth) in [("rim", rim), ("inside", [0.15 * narrow, 0.45 * narrow])] {
             let margin = lambda.min(0.2 * narrow);
             let sampling = Sampling { placements: 40, targets: 2, depth, margin, seed: 5 };
@@ -64,16 +64,16 @@ fn statistics_of_modes_follow_simulation_over_actuators_and_windows() {
             let like = Sampling { placements: 4, seed: 17, ..sampling.clone() };
             let draws = like.draws(&surface.outline, 8).into_iter();
             let places: Vec<Point> = draws.flat_map(|draw| draw.actuators).collect();
-            let Responses::Modal(modal) = bench.responses(&places) else { unreachable!() };
+            let Responses::Modal(modal) = model.responses(&places) else { unreachable!() };
             let statistics = Statistics::of(&modal, Medium::of(&surface.sheet)).unwrap();
-            for row in against_window(&bench, &surface, &WINDOWS, &ACTUATORS, &sampling) {
+            for row in against_window(&model, &surface, &WINDOWS, &ACTUATORS, &sampling) {
                 let Compared { actuators, varied, simulated, predicted, .. } = row;
                 let found = statistics.contrasts(&[actuators as f64], varied)[0];
                 let (modes, band) = (found / simulated, predicted / simulated);
                 println!(
                     "{name:24} {:3} modes {place:6} N {actuators:2} T {:3.0} ms  simulated {simulated:6.2}  statistics of \
                      modes {modes:5.3}  of the band {band:5.3}",
-                    bench.modes(),
+                    model.modes(),
                     1e3 * varied
                 );
                 let own = actuators == 8 && varied == 0.030;
@@ -96,9 +96,9 @@ fn statistics_of_modes_follow_simulation_over_actuators_and_windows() {
 fn what_design_predicts_is_what_targets_have() {
     let (mut inside, mut all) = (0, 0);
     for (name, mut surface, depth) in surfaces() {
-        let bench = Bench::of(&surface, CELLS).unwrap();
+        let model = ContrastModel::of(&surface, CELLS).unwrap();
         let (width, height) = surface.outline.extent();
-        let (narrow, lambda) = (width.min(height), bench.conditions().lambda_min);
+        let (narrow, lambda) = (width.min(height), model.conditions().lambda_min);
         // As far from the rim as the targets of a prediction.
         let margin = lambda.min(0.8 * surface.outline.area() / surface.outline.perimeter());
         let sampling =
@@ -114,15 +114,15 @@ fn what_design_predicts_is_what_targets_have() {
         let design = design(&surface).unwrap();
         assert_eq!(design.contrast_from, Predicted::Modes);
         let [low, high] = design.contrast_interval.unwrap();
-        let (replay, inputs) = (bench.once(design.window_recommended_s), bench.shapes_at(&draw.actuators));
+        let (replay, inputs) = (model.once(design.window_recommended_s), model.shapes_at(&draw.actuators));
         let contrasts: Vec<f64> = draw
             .targets
             .iter()
             .filter(|target| draw.actuators.iter().all(|a| a.distance(**target) >= 0.5 * lambda))
             .map(|target| {
-                let outside = bench.outside(*target);
-                *bench
-                    .contrasts(bench.states(&replay, inputs.as_ref(), &outside).as_ref(), &outside)
+                let outside = model.outside(*target);
+                *model
+                    .contrasts(model.states(&replay, inputs.as_ref(), &outside).as_ref(), &outside)
                     .last()
                     .unwrap()
             })

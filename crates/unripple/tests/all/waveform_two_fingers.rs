@@ -97,7 +97,7 @@ fn waveforms_are_followed_from_start_to_end() {
     let played = play(&plant, &waves, &places[2..], &PlayOptions::default()).unwrap();
     let drive = played.drive.clone().as_emitted();
     let field = Field::new(&plant, &drive, 1.0).unwrap();
-    let wanted = [0, 1].map(|i| Wanted { points: vec![places[i]], samples: played.asked[i].clone() });
+    let wanted = [0, 1].map(|i| Wanted { points: vec![places[i]], samples: played.prescribed[i].clone() });
     let until = drive.duration() + 0.5;
     let (followed, silent) = field.followed(&wanted, &places[2..], until, |t| &t.displacement).unwrap();
     for figures in &followed {

@@ -5,32 +5,32 @@ use crate::window_common;
 
 use rayon::prelude::*;
 use unripple_core::{Point, Surface};
-use unripple_paper::study::{Bench, CELLS};
+use unripple_paper::study::{CELLS, ContrastModel};
 use unripple_physics::design::{Cavity, Windows};
 use window_common::{LOSS_FACTORS, drum, film, glass, panel, table, targets, with_loss};
 
 /// Contrasts of one surface over many windows.
 struct Judge {
-    bench: Bench,
+    model: ContrastModel,
     targets: Vec<Point>,
     actuators: Vec<Point>,
 }
 
 impl Judge {
     fn of(surface: &Surface) -> Self {
-        let bench = Bench::of(surface, CELLS).unwrap();
-        let targets = targets(surface, bench.conditions().lambda_min);
-        Self { bench, targets, actuators: surface.actuators.iter().map(|a| a.at).collect() }
+        let model = ContrastModel::of(surface, CELLS).unwrap();
+        let targets = targets(surface, model.conditions().lambda_min);
+        Self { model, targets, actuators: surface.actuators.iter().map(|a| a.at).collect() }
     }
 
     /// Contrast of a time-reversed focus, from the mean of 1/C² over the targets.
     fn contrast(&self, window: f64) -> f64 {
-        let replay = self.bench.once_of_any_length(window);
-        let inputs = self.bench.shapes_at(&self.actuators);
+        let replay = self.model.once_of_any_length(window);
+        let inputs = self.model.shapes_at(&self.actuators);
         let square = |target: &Point| {
-            let outside = self.bench.outside(*target);
-            let states = self.bench.states(&replay, inputs.as_ref(), &outside);
-            self.bench.contrasts(states.as_ref(), &outside).last().unwrap().powi(-2)
+            let outside = self.model.outside(*target);
+            let states = self.model.states(&replay, inputs.as_ref(), &outside);
+            self.model.contrasts(states.as_ref(), &outside).last().unwrap().powi(-2)
         };
         let sum: f64 = self.targets.par_iter().map(square).sum();
         (sum / self.targets.len() as f64).powf(-0.5)

@@ -2,7 +2,7 @@
 
 use super::panels::{curve, strip};
 use super::recording::{IMPULSE, Recording};
-use crate::reproduce::Bed;
+use crate::reproduce::PaperSetup;
 use crate::reproduce::fields::{cells, first, largest};
 use crate::reproduce::modes::{FORCE, driven_at};
 use crate::reproduce::places::place;
@@ -47,41 +47,42 @@ impl Refocus {
     /// Plays the reversed recording, compares it with the drive computed from the responses, and evaluates
     /// its field.
     pub(super) fn make(
-        bed: &Bed,
+        setup: &PaperSetup,
         modal: &ModalResponses,
         b: &Port,
         recording: &Recording,
     ) -> Result<Self, TaskError> {
         let responses = driven_at(modal, b.clone());
-        let cropped = recording.cropped(bed);
+        let cropped = recording.cropped(setup);
         let scale = FORCE / largest(cropped);
         let reversed: Vec<f64> = cropped.iter().rev().map(|v| v * scale).collect();
-        let drive =
-            Drive::new(bed.rate, vec![b.name.clone()], vec![reversed]).map_err(TaskError::work)?.as_emitted();
+        let drive = Drive::new(setup.rate, vec![b.name.clone()], vec![reversed])
+            .map_err(TaskError::work)?
+            .as_emitted();
 
-        let options = Options { window: bed.window, limit: FORCE, ..Options::default() };
-        let other = focus(&responses, &[Target::at(bed.target)], &options).map_err(TaskError::work)?.drive;
+        let options = Options { window: setup.window, limit: FORCE, ..Options::default() };
+        let other = focus(&responses, &[Target::at(setup.target)], &options).map_err(TaskError::work)?.drive;
         let pairs = drive.channels().iter().flatten().zip(other.channels().iter().flatten());
         let mismatch = pairs.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / other.peak();
 
         let field = Field::new(&responses, &drive, CELLS).map_err(TaskError::work)?;
-        let instants = CONVERGING.map(|t| bed.window + t);
+        let instants = CONVERGING.map(|t| setup.window + t);
         let shots = field.snapshots(&instants).map_err(TaskError::work)?;
         let mut traces =
-            field.traces(&[bed.target, C], 2.0 * bed.window).map_err(TaskError::work)?.into_iter();
+            field.traces(&[setup.target, C], 2.0 * setup.window).map_err(TaskError::work)?.into_iter();
         let (at_a, at_c) = (traces.next().unwrap_or_default(), traces.next().unwrap_or_default());
-        let aim = Aim::at(bed.target, bed.window);
+        let aim = Aim::at(setup.target, setup.window);
         let figures = first(field.measure(&[aim], None).map_err(TaskError::work)?.targets)?;
         let squares: f64 = cropped.iter().map(|v| (v / IMPULSE).powi(2)).sum();
-        let predicted = squares * scale * IMPULSE / bed.rate;
+        let predicted = squares * scale * IMPULSE / setup.rate;
         let cells = cells(&field)?;
         drop(field);
         Ok(Self { drive, mismatch, predicted, cells, shots, at_a, at_c, figures })
     }
 
     /// Peak at A, and the rms of the noise at A (but for the pulse) and at C, in m/s.
-    pub(super) fn levels(&self, bed: &Bed) -> [f64; 3] {
-        let (focus, pulse) = (window_samples(bed.window, bed.rate), window_samples(PULSE, bed.rate));
+    pub(super) fn levels(&self, setup: &PaperSetup) -> [f64; 3] {
+        let (focus, pulse) = (window_samples(setup.window, setup.rate), window_samples(PULSE, setup.rate));
         let noise: Vec<f64> = self
             .at_a
             .velocity
@@ -94,10 +95,10 @@ impl Refocus {
     }
 
     /// Figure of the fields side by side, the force at B, and the velocities at A and C.
-    pub(super) fn figure(&self, bed: &Bed, scene: &Scene) -> Figure {
+    pub(super) fn figure(&self, setup: &PaperSetup, scene: &Scene) -> Figure {
         let high = SATURATED * self.figures.peak_velocity_m_s;
         let from_focus = |t: f64| {
-            let us = ((t - bed.window) * 1e6).round();
+            let us = ((t - setup.window) * 1e6).round();
             let ms = us.abs() / 1e3;
             match us {
                 0.0 => "t = T".into(),
@@ -106,9 +107,9 @@ impl Refocus {
             }
         };
         let strip = strip(scene, &self.cells, &self.shots, high, from_focus);
-        let focus = || Rule { at: bed.window, label: "T".into(), ..Rule::default() };
-        let mut played = curve(&self.drive.channels()[0], bed.rate, "N", "Force at B");
-        played.x = Axis::new("Time (ms)").times(1e3).from(0.0).to(2.0 * bed.window);
+        let focus = || Rule { at: setup.window, label: "T".into(), ..Rule::default() };
+        let mut played = curve(&self.drive.channels()[0], setup.rate, "N", "Force at B");
+        played.x = Axis::new("Time (ms)").times(1e3).from(0.0).to(2.0 * setup.window);
         played.layers.push(focus().into());
         let (multiplier, unit) = prefixed(self.figures.peak_velocity_m_s, "m/s");
         let trace = |label: &str, trace: &Trace, ink| unripple_plot::Trace {
@@ -118,7 +119,7 @@ impl Refocus {
         };
         let heard = Traces {
             x: Axis::new("Time (ms)").times(1e3),
-            step: 1.0 / bed.rate,
+            step: 1.0 / setup.rate,
             traces: vec![trace("at A", &self.at_a, 1), trace("at C", &self.at_c, 0)],
             unit,
             multiplier,
@@ -136,8 +137,8 @@ impl Refocus {
     }
 
     /// Caption of the figure.
-    pub(super) fn caption(&self, bed: &Bed, b: &Port) -> String {
-        let [peak, noise_a, noise_c] = self.levels(bed);
+    pub(super) fn caption(&self, setup: &PaperSetup, b: &Port) -> String {
+        let [peak, noise_a, noise_c] = self.levels(setup);
         format!(
             "Fig. 1b. Reverse and refocus. B ({}) plays the recording backwards; the waves meet at A at t = T. The peak at A is \
              {:.1} times the rms noise at A over 0 … 2T (without the {:.0} ms on either side of T) and {:.1} times that at C, \

@@ -4,7 +4,7 @@ use super::focus::focused;
 use super::ratio::ratio;
 use crate::reproduce::fields::{cells, first, largest};
 use crate::reproduce::modes::FORCE;
-use crate::reproduce::{Bed, Picture, Predicted, Section};
+use crate::reproduce::{PaperSetup, Picture, Predicted, Section};
 use serde_json::json;
 use unripple::core::Point;
 use unripple::field::{self, Aim, Field, Measured, TargetFigures, Trace};
@@ -35,16 +35,16 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn make(bed: &Bed) -> Result<Self, TaskError> {
-        let pitch = Pattern::pitch(bed.responses.conditions().lambda_min);
+    fn make(setup: &PaperSetup) -> Result<Self, TaskError> {
+        let pitch = Pattern::pitch(setup.responses.conditions().lambda_min);
         let points = Pattern::triangle(CENTRE, SIDE).sample(pitch).map_err(TaskError::work)?;
-        let drive = focused(bed, &bed.responses, Target::of(points.clone()))?.drive.as_emitted();
-        let field = Field::new(&bed.responses, &drive, CELLS).map_err(TaskError::work)?;
-        let aim = Aim { points: points.clone(), instant: bed.window };
+        let drive = focused(setup, &setup.responses, Target::of(points.clone()))?.drive.as_emitted();
+        let field = Field::new(&setup.responses, &drive, CELLS).map_err(TaskError::work)?;
+        let aim = Aim { points: points.clone(), instant: setup.window };
         let mut measured = field.measure(&[aim], None).map_err(TaskError::work)?;
         let figures = first(std::mem::take(&mut measured.targets))?;
         let fine = Pattern::triangle(CENTRE, SIDE).sample(FINE).map_err(TaskError::work)?;
-        let traces = field.traces(&fine, bed.window).map_err(TaskError::work)?;
+        let traces = field.traces(&fine, setup.window).map_err(TaskError::work)?;
         let along =
             traces.iter().map(|trace: &Trace| trace.velocity.last().copied().unwrap_or(0.0)).collect();
         Ok(Self { points, measured, figures, along, cells: cells(&field)? })
@@ -66,11 +66,11 @@ impl Drawn {
 }
 
 /// Makes the part of the page on Fig. 2b: a triangle from eight impulse responses.
-pub fn triangle(bed: &Bed) -> Result<Section, TaskError> {
-    let drawn = Drawn::make(bed)?;
+pub fn triangle(setup: &PaperSetup) -> Result<Section, TaskError> {
+    let drawn = Drawn::make(setup)?;
     let figures = vec![
-        Picture::still("fig2b", triangle_maps(bed, &drawn)?, triangle_caption(bed, &drawn)),
-        Picture::still("fig2b-along", along(bed, &drawn), along_caption(&drawn)),
+        Picture::still("fig2b", triangle_maps(setup, &drawn)?, triangle_caption(setup, &drawn)),
+        Picture::still("fig2b-along", along(setup, &drawn), along_caption(&drawn)),
     ];
     let [low, high] = drawn.velocities();
     let [low_u, high_u] = drawn.displacements();
@@ -115,8 +115,8 @@ pub fn triangle(bed: &Bed) -> Result<Section, TaskError> {
     })
 }
 
-fn triangle_maps(bed: &Bed, figure: &Drawn) -> Result<Figure, TaskError> {
-    let mut scene = Scene::new(&bed.surface, &[], 0.0);
+fn triangle_maps(setup: &PaperSetup, figure: &Drawn) -> Result<Figure, TaskError> {
+    let mut scene = Scene::new(&setup.surface, &[], 0.0);
     let dots = Pattern::triangle(CENTRE, SIDE).sample(3e-3).map_err(TaskError::work)?;
     let dot = |p: &Point| Marker { at: [p.x, p.y], symbol: Symbol::Circle(2e-4), name: String::new() };
     scene.markers.extend(dots.iter().map(dot));
@@ -134,7 +134,7 @@ fn triangle_maps(bed: &Bed, figure: &Drawn) -> Result<Figure, TaskError> {
         };
         scene.map(drawn(&figure.cells, values), title, colours)
     };
-    let after = (u.instant - bed.window) * 1e3;
+    let after = (u.instant - setup.window) * 1e3;
     Ok(Figure {
         width_mm: 178.0,
         columns: 2,
@@ -153,13 +153,13 @@ fn triangle_maps(bed: &Bed, figure: &Drawn) -> Result<Figure, TaskError> {
     })
 }
 
-fn along(bed: &Bed, drawn: &Drawn) -> Figure {
+fn along(setup: &PaperSetup, drawn: &Drawn) -> Figure {
     let step = 3.0 * SIDE / drawn.along.len() as f64;
     let mean = drawn.figures.peak_velocity_m_s;
     let closed = drawn.along.iter().chain(drawn.along.first());
     let y: Vec<f64> = closed.map(|v| v / mean).collect();
     let x = (0..y.len()).map(|i| i as f64 * step).collect();
-    let lambda = bed.responses.conditions().lambda_min;
+    let lambda = setup.responses.conditions().lambda_min;
     let top = largest(&y).max(1.0) * 1.15;
     let mut layers = vec![
         Span { from: 0.0, to: lambda, label: "λ at the top of the band".into(), ..Span::default() }.into(),
@@ -180,13 +180,13 @@ fn along(bed: &Bed, drawn: &Drawn) -> Figure {
     Figure { description: "Velocity along the triangle when it is in focus".into(), ..Figure::of(plot) }
 }
 
-fn triangle_caption(bed: &Bed, drawn: &Drawn) -> String {
+fn triangle_caption(setup: &PaperSetup, drawn: &Drawn) -> String {
     format!(
         "Fig. 2b. A triangle of {:.0} mm (dots) from the responses of {} actuators (squares), T = {:.0} ms, {:.0} mN at most: \
          (a) velocity at T, contrast {}; (b) displacement at the extreme of its mean along the triangle, contrast {}.",
         SIDE * 1e3,
-        bed.surface.actuators.len(),
-        bed.window * 1e3,
+        setup.surface.actuators.len(),
+        setup.window * 1e3,
         FORCE * 1e3,
         ratio(drawn.figures.contrast),
         ratio(drawn.figures.displacement_contrast)

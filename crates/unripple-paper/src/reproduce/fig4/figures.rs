@@ -1,7 +1,7 @@
 //! Figures of two repeated foci.
 
 use super::repeated::{AMPLITUDE, LASTS, RATES, Repeated, STEADY, Tracked, steady};
-use crate::reproduce::Bed;
+use crate::reproduce::PaperSetup;
 use crate::reproduce::places::{named, place};
 use unripple::core::window_samples;
 use unripple_plot::{
@@ -13,14 +13,14 @@ use unripple_tasks::figures::{Scene, drawn};
 const CLOSE: f64 = 5e-3;
 
 /// Figure of the displacement of the film when both are in focus, and of five points against time.
-pub(super) fn overview(bed: &Bed, repeated: &Repeated) -> Figure {
-    let mut scene = Scene::new(&bed.surface, &[], 0.0);
+pub(super) fn overview(setup: &PaperSetup, repeated: &Repeated) -> Figure {
+    let mut scene = Scene::new(&setup.surface, &[], 0.0);
     scene.markers.extend(repeated.points.iter().map(|point| named(point.at, point.name)));
     let grid: Grid = drawn(&repeated.cells, &repeated.shot.displacement);
     let (multiplier, unit) = prefixed(AMPLITUDE, "m");
     let colours = Colours { title: format!("Displacement ({unit})"), multiplier, ..Colours::default() };
-    let from = steady(bed);
-    let origin = window_samples(bed.window, bed.rate) as f64;
+    let from = steady(setup);
+    let origin = window_samples(setup.window, setup.rate) as f64;
     let trace = |point: &Tracked| unripple_plot::Trace {
         label: point.hz.map_or_else(|| point.name.to_owned(), |hz| format!("{}, {hz} Hz", point.name)),
         values: point.displacement[from..].to_vec(),
@@ -28,8 +28,8 @@ pub(super) fn overview(bed: &Bed, repeated: &Repeated) -> Figure {
     };
     let traces = Traces {
         x: Axis::new("Time (s)"),
-        start: (from as f64 - origin) / bed.rate - repeated.period,
-        step: 1.0 / bed.rate,
+        start: (from as f64 - origin) / setup.rate - repeated.period,
+        step: 1.0 / setup.rate,
         traces: repeated.points.iter().map(trace).collect(),
         unit,
         multiplier,
@@ -46,14 +46,14 @@ pub(super) fn overview(bed: &Bed, repeated: &Repeated) -> Figure {
 }
 
 /// Figure of the displacement around a focus of E alone, one of D alone, and one of both.
-pub(super) fn closely(bed: &Bed, repeated: &Repeated) -> Figure {
-    let origin = bed.window + repeated.period;
+pub(super) fn closely(setup: &PaperSetup, repeated: &Repeated) -> Figure {
+    let origin = setup.window + repeated.period;
     let panel = |after: f64, title: &str| {
-        let (middle, reach) = (window_samples(origin + after, bed.rate), window_samples(CLOSE, bed.rate));
+        let (middle, reach) = (window_samples(origin + after, setup.rate), window_samples(CLOSE, setup.rate));
         let line = |point: &Tracked, label: &str, ink: Ink, width: f64| {
             let range = middle - reach..=middle + reach;
             Line {
-                x: range.clone().map(|i| (i as f64 - middle as f64) / bed.rate).collect(),
+                x: range.clone().map(|i| (i as f64 - middle as f64) / setup.rate).collect(),
                 y: range.filter_map(|i| point.displacement.get(i).copied()).collect(),
                 label: label.into(),
                 ink,
@@ -94,8 +94,8 @@ pub(super) fn closely(bed: &Bed, repeated: &Repeated) -> Figure {
 }
 
 /// Caption of [`overview`].
-pub(super) fn overview_caption(bed: &Bed, repeated: &Repeated) -> String {
-    let after = repeated.shot.instant - bed.window - repeated.period;
+pub(super) fn overview_caption(setup: &PaperSetup, repeated: &Repeated) -> String {
+    let after = repeated.shot.instant - setup.window - repeated.period;
     let rest: Vec<String> = repeated.points.iter().map(|p| format!("{} {}", p.name, place(p.at))).collect();
     format!(
         "Fig. 4. (a) Displacement at the extreme of the pulse in E when both are in focus, {:.2} ms {} that instant; squares are actuators. \

@@ -1,6 +1,6 @@
 //! Two foci repeated at different rates: the drive, and the motion of five points.
 
-use crate::reproduce::Bed;
+use crate::reproduce::PaperSetup;
 use crate::reproduce::fields::cells;
 use serde::Serialize;
 use unripple::core::{Drive, Point, window_samples};
@@ -74,8 +74,8 @@ pub(super) struct Tracked {
 
 impl Tracked {
     /// Sample within [`PULSE`] of a focus at which the displacement is largest.
-    fn extreme(&self, bed: &Bed, focus: usize) -> usize {
-        let reach = window_samples(PULSE, bed.rate);
+    fn extreme(&self, setup: &PaperSetup, focus: usize) -> usize {
+        let reach = window_samples(PULSE, setup.rate);
         let larger = |best: usize, i: usize| {
             if self.displacement[i].abs() > self.displacement[best].abs() { i } else { best }
         };
@@ -90,23 +90,23 @@ impl Tracked {
     }
 
     /// Height of each pulse: the largest magnitude within [`PULSE`] of each focus, in metres.
-    pub(super) fn pulses(&self, bed: &Bed) -> Vec<f64> {
-        let foci = self.foci(window_samples(bed.window, bed.rate), steady(bed), bed.rate);
-        foci.into_iter().map(|focus| self.displacement[self.extreme(bed, focus)].abs()).collect()
+    pub(super) fn pulses(&self, setup: &PaperSetup) -> Vec<f64> {
+        let foci = self.foci(window_samples(setup.window, setup.rate), steady(setup), setup.rate);
+        foci.into_iter().map(|focus| self.displacement[self.extreme(setup, focus)].abs()).collect()
     }
 
     /// Displacement of the point in the steady state, without its own pulses.
-    pub(super) fn noise(&self, bed: &Bed) -> Vec<f64> {
-        let (origin, reach) = (window_samples(bed.window, bed.rate), window_samples(PULSE, bed.rate));
-        let (from, foci) = (steady(bed), self.foci(origin, origin, bed.rate));
+    pub(super) fn noise(&self, setup: &PaperSetup) -> Vec<f64> {
+        let (origin, reach) = (window_samples(setup.window, setup.rate), window_samples(PULSE, setup.rate));
+        let (from, foci) = (steady(setup), self.foci(origin, origin, setup.rate));
         let free = |i: &usize| foci.iter().all(|f| f.abs_diff(*i) > reach);
         (from..self.displacement.len()).filter(free).map(|i| self.displacement[i]).collect()
     }
 }
 
 /// First sample of the interval that counts as the steady state.
-pub(super) fn steady(bed: &Bed) -> usize {
-    window_samples(bed.window + STEADY, bed.rate)
+pub(super) fn steady(setup: &PaperSetup) -> usize {
+    window_samples(setup.window + STEADY, setup.rate)
 }
 
 /// The mean of `values`; 0 if there are none.
@@ -116,20 +116,20 @@ pub(super) fn mean(values: &[f64]) -> f64 {
 
 impl Repeated {
     /// Computes the drive, and evaluates the motion of all points.
-    pub(super) fn make(bed: &Bed) -> Result<Self, TaskError> {
+    pub(super) fn make(setup: &PaperSetup) -> Result<Self, TaskError> {
         let options = Options {
-            window: bed.window,
-            limit: bed.surface.emission.limit,
-            duration: Some(bed.window + LASTS),
+            window: setup.window,
+            limit: setup.surface.emission.limit,
+            duration: Some(setup.window + LASTS),
             ..Options::default()
         };
-        let focuser = Focuser::new(&bed.responses, &options).map_err(TaskError::work)?;
-        let (focused, rounds) = levelled(bed, &focuser)?;
-        let period = focused.period.map_or(f64::NAN, |samples| samples as f64 / bed.rate);
+        let focuser = Focuser::new(&setup.responses, &options).map_err(TaskError::work)?;
+        let (focused, rounds) = levelled(setup, &focuser)?;
+        let period = focused.period.map_or(f64::NAN, |samples| samples as f64 / setup.rate);
         let drive = focused.drive;
-        let field = Field::new(&bed.responses, &drive, CELLS).map_err(TaskError::work)?;
-        let points = tracked(bed, &field)?;
-        let (pulses, shot) = pulses(bed, &field, &points, period)?;
+        let field = Field::new(&setup.responses, &drive, CELLS).map_err(TaskError::work)?;
+        let points = tracked(setup, &field)?;
+        let (pulses, shot) = pulses(setup, &field, &points, period)?;
         let cells = cells(&field)?;
         drop(field);
         Ok(Self { drive, period, cells, shot, points, pulses, rounds })
@@ -147,15 +147,15 @@ impl Repeated {
 }
 
 /// Names and places of all points, with the repetition rates of the foci, which come first.
-fn places(bed: &Bed) -> Vec<(&'static str, Point, Option<f64>)> {
-    let foci = [("E", bed.target, Some(RATES[0])), ("D", D, Some(RATES[1]))];
+fn places(setup: &PaperSetup) -> Vec<(&'static str, Point, Option<f64>)> {
+    let foci = [("E", setup.target, Some(RATES[0])), ("D", D, Some(RATES[1]))];
     foci.into_iter().chain(OTHERS.map(|(name, at)| (name, at, None))).collect()
 }
 
-fn tracked(bed: &Bed, field: &Field) -> Result<Vec<Tracked>, TaskError> {
-    let places = places(bed);
+fn tracked(setup: &PaperSetup, field: &Field) -> Result<Vec<Tracked>, TaskError> {
+    let places = places(setup);
     let points: Vec<Point> = places.iter().map(|(_, at, _)| *at).collect();
-    let traces: Vec<Trace> = field.traces(&points, bed.window + LASTS).map_err(TaskError::work)?;
+    let traces: Vec<Trace> = field.traces(&points, setup.window + LASTS).map_err(TaskError::work)?;
     let pairs = places.into_iter().zip(traces);
     Ok(pairs
         .map(|((name, at, hz), trace)| Tracked {
@@ -170,25 +170,25 @@ fn tracked(bed: &Bed, field: &Field) -> Result<Vec<Tracked>, TaskError> {
 
 /// Pulses of E and of D, alone and together, after the first period; and the film at the extreme of E's when together.
 fn pulses(
-    bed: &Bed,
+    setup: &PaperSetup,
     field: &Field,
     points: &[Tracked],
     period: f64,
 ) -> Result<(Vec<Pulse>, Snapshot), TaskError> {
     let [e, d, ..] = points else { return Err(TaskError::Work("expected two foci".into())) };
-    let common = window_samples(bed.window + period, bed.rate);
-    let after = |hz: f64| common + window_samples(1.0 / hz, bed.rate);
+    let common = window_samples(setup.window + period, setup.rate);
+    let after = |hz: f64| common + window_samples(1.0 / hz, setup.rate);
     let asked =
         [(e, common, true), (d, common, true), (e, after(RATES[0]), false), (d, after(RATES[1]), false)];
-    let extremes = asked.map(|(point, focus, _)| point.extreme(bed, focus));
+    let extremes = asked.map(|(point, focus, _)| point.extreme(setup, focus));
     let instants: Vec<f64> = asked
         .iter()
         .map(|(_, focus, _)| *focus)
         .chain(extremes)
-        .map(|sample| sample as f64 / bed.rate)
+        .map(|sample| sample as f64 / setup.rate)
         .collect();
     let mut shots = field.snapshots(&instants).map_err(TaskError::work)?;
-    let radius = bed.responses.conditions().focal_radius();
+    let radius = setup.responses.conditions().focal_radius();
     let outside: Vec<bool> =
         field.points().iter().map(|p| [e, d].iter().all(|focus| focus.at.distance(*p) > radius)).collect();
     let noise = |values: &[f32]| {
@@ -208,17 +208,17 @@ fn pulses(
 
 /// The drive whose pulses at both foci have the paper's height on average, and the number of rounds; gain
 /// and level are found from the emitted drive.
-fn levelled(bed: &Bed, focuser: &Focuser) -> Result<(Focused, usize), TaskError> {
+fn levelled(setup: &PaperSetup, focuser: &Focuser) -> Result<(Focused, usize), TaskError> {
     let (mut gain, mut round) = (1.0, 0);
     loop {
         round += 1;
         let targets =
-            [Target::at(bed.target).repeated(RATES[0]), Target::at(D).with_gain(gain).repeated(RATES[1])];
+            [Target::at(setup.target).repeated(RATES[0]), Target::at(D).with_gain(gain).repeated(RATES[1])];
         let mut focused = focuser.focus(&targets).map_err(TaskError::work)?;
         let heights = |drive: &Drive| -> Result<Vec<f64>, TaskError> {
-            let field = Field::new(&bed.responses, drive, CELLS).map_err(TaskError::work)?;
-            let points = tracked(bed, &field)?;
-            Ok(points.iter().filter(|p| p.hz.is_some()).map(|p| mean(&p.pulses(bed))).collect())
+            let field = Field::new(&setup.responses, drive, CELLS).map_err(TaskError::work)?;
+            let points = tracked(setup, &field)?;
+            Ok(points.iter().filter(|p| p.hz.is_some()).map(|p| mean(&p.pulses(setup))).collect())
         };
         let unscaled = heights(&focused.drive)?;
         focused.drive = focused.drive.scaled(AMPLITUDE / unscaled[0]).as_emitted();
@@ -236,14 +236,14 @@ mod tests {
 
     #[test]
     fn pulses_are_equal_and_on_time() {
-        let bed = Bed::new().unwrap();
-        let repeated = Repeated::make(&bed).unwrap();
+        let setup = PaperSetup::new().unwrap();
+        let repeated = Repeated::make(&setup).unwrap();
         assert_eq!(repeated.period, 1.0);
         for (point, hz) in repeated.foci().zip(RATES) {
-            let pulses = point.pulses(&bed);
+            let pulses = point.pulses(&setup);
             assert_eq!(pulses.len(), ((LASTS * hz).floor() - (STEADY * hz).ceil()) as usize + 1);
             assert!((mean(&pulses) / AMPLITUDE - 1.0).abs() < 1e-3, "{}: {pulses:?}", point.name);
-            assert!(largest(&point.noise(&bed)) < AMPLITUDE / 2.0);
+            assert!(largest(&point.noise(&setup)) < AMPLITUDE / 2.0);
         }
         let of = |together: bool| {
             mean(

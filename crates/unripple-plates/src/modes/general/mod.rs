@@ -1,4 +1,5 @@
-//! Modes of any sheet by quintic finite elements on a mesh, refined until the error of the frequencies is the one asked for.
+//! Modes of any sheet by quintic finite elements on a mesh, refined until the error of the frequencies is
+//! the requested one.
 
 mod polygon;
 mod rates;
@@ -20,25 +21,26 @@ use unripple_core::plane::doubled;
 use unripple_core::{Edge, Observed, Surface};
 use unripple_linalg::{ColRef, Mat, sparse_times};
 
-/// Largest number of meshes solved after the first two, each finer than the one before by 1.25 to 1.6. More would only delay the failure
-/// if the accuracy is out of reach.
+/// Largest number of meshes solved after the first two, each finer than the mesh before by a factor of 1.25
+/// to 1.6. More would only delay the failure if the accuracy cannot be reached.
 const ROUNDS: usize = 6;
 
-/// Ratio of edge lengths of the first three meshes as they are planned: the coarser ones cost about a half and a third of the third.
-/// Nearer to 1, their differences, from which the error is estimated, are lost in chance ones of unlike meshes; with 1.3, the coarsest has
-/// two edges in a wavelength, and too large differences.
+/// Planned ratio of edge lengths of the first three meshes: the two coarser meshes cost about a half and a
+/// third of the third. Nearer to 1, the differences from which the error is estimated are lost in random
+/// differences of unlike meshes; with 1.3, the coarsest has two edges in a wavelength, and differences are
+/// too large.
 const COARSER: f64 = 1.2;
 
 /// The share of the least error so far that a refinement must fall below to count as progress: with edges 1.25 times
 /// shorter, sixth order leaves 0.26. At 1, refinement goes on when only rounding errors are left.
 const STALLED: f64 = 0.8;
 
-/// Rounds without progress after which the accuracy counts as out of reach: a rate that was measured too fast by chance makes the next
-/// round look worse.
+/// Number of rounds without progress after which the accuracy counts as out of reach: if the rate of
+/// convergence was measured too high by chance, the next round looks worse.
 const PATIENCE: usize = 2;
 
-/// Factor from one accuracy to the next that is tried where meshes for the one before would not fit in memory. With twice this value, the
-/// accuracy may be six times worse than memory allows.
+/// Factor between one accuracy and the next that is tried if meshes for the first would not fit in memory.
+/// With twice this value, the accuracy may be six times worse than memory allows.
 const RELAXED: f64 = 3.0;
 
 /// Largest residual of an eigenpair; the relative error of its eigenvalue is about its square, 1e-10. Ten
@@ -84,7 +86,7 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
             return Ok((fine, error));
         }
         best.take(fine, error, STALLED);
-        // The rest is rounding, or a corner that would need too many triangles.
+        // The remaining error is rounding, or a corner that would need too many triangles.
         if best.is_stalled(PATIENCE) {
             break;
         }
@@ -94,7 +96,8 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
     best.end().map_err(|found| PhysicsError::NotConverged { max_hz, expected, found })
 }
 
-/// The plan for the accuracy aimed at, or for the best one to be accepted that memory allows.
+/// The plan for the accuracy aimed at, or, if that needs too much memory, for the best accuracy that memory
+/// allows and that is accepted.
 ///
 /// # Errors
 /// [`PhysicsError::TooLarge`] for the accuracy aimed at where there is none, so that nothing is solved in vain.
@@ -150,8 +153,8 @@ fn modes(
     Ok(Solution { space, pairs, bending_shares, edge: mean_edge(&mesh) })
 }
 
-/// The geometric mean over the sheet of the edge length (m) of equilateral triangles as large as those of a mesh: that of most of the
-/// sheet, whatever the number of triangles at its corners.
+/// The geometric mean over the sheet's area of the edge length (m) of equilateral triangles as large as
+/// those of a mesh: it stands for most of the sheet, however many triangles there are at corners.
 fn mean_edge(mesh: &Mesh) -> f64 {
     let (mut sheet, mut logs) = (0.0, 0.0);
     for triangle in &mesh.triangles {
@@ -162,8 +165,10 @@ fn mean_edge(mesh: &Mesh) -> f64 {
     (f64::exp(logs / sheet) / 0.1875_f64.sqrt()).sqrt()
 }
 
-/// Sets the eigenvalues of rigid-body modes, which are not 0 by rounding, to 0: of the lowest as many as the sheet has such motions, if their
-/// frequencies are below a tenth of that expected of the first mode of a plate with as many modes, and any below a thousandth of it.
+/// Sets the eigenvalues of rigid-body modes, which differ from 0 by rounding errors, to 0. The lowest
+/// eigenvalues, as many as the sheet has rigid-body motions, are set if their frequencies are below a tenth
+/// of that expected of the first mode of a plate with as many modes; any others if below a thousandth of
+/// it.
 fn settled(mut pairs: Pairs, surface: &Surface, bounds: &Bounds) -> Pairs {
     let first = bounds.top_square() / (pairs.values.len().max(1) as f64).powi(2);
     let rigid = rigid_motions(surface);
@@ -176,20 +181,20 @@ fn settled(mut pairs: Pairs, surface: &Surface, bounds: &Bounds) -> Pairs {
     pairs
 }
 
-/// The number of motions of a sheet that store no energy: none if an edge holds it, else moving as a whole, and tilting along two directions
-/// unless tension or springs resist that.
+/// The number of rigid-body motions of a sheet that store no energy: none if an edge resists displacement;
+/// else one up and down, and two tilts unless tension or springs resist them.
 fn rigid_motions(surface: &Surface) -> usize {
     let outline = &surface.outline;
     let tilts = |edge: &Edge| matches!(edge, Edge::Elastic { tilt, .. } if *tilt > 0.0);
     let tilted = outline.loops().iter().any(|rim| rim.sides.iter().any(|(_, edge)| tilts(edge)));
-    match (outline.holds(), surface.sheet.tension > 0.0 || tilted) {
+    match (outline.resists_displacement(), surface.sheet.tension > 0.0 || tilted) {
         (true, _) => 0,
         (false, true) => 1,
         (false, false) => 3,
     }
 }
 
-/// The modes of a solution, with the air's mass and their sign.
+/// The modes of a solution, with the added mass of air and a definite sign.
 fn found(solution: Solution, bounds: &Bounds, error: f64) -> Found {
     let Solution { space, pairs, bending_shares, .. } = solution;
     let (omegas, factors): (Vec<f64>, Vec<f64>) =

@@ -13,12 +13,14 @@ use std::f64::consts::PI;
 use unripple_core::plane::Rims;
 use unripple_core::{Edge, Surface};
 
-/// Interior angles up to this much above a straight one, in radians, count as straight: rounding of coordinates on one line. The
-/// singular part of the plate's deflection at such a corner is as small.
+/// Interior angles that exceed a straight angle by up to this, in radians, count as straight: rounding
+/// errors of coordinates on one line. The singular part of the plate's deflection at such a corner is as
+/// small.
 const STRAIGHT: f64 = 1e-6;
 
-/// The membrane with the modes of a supported plate on a convex polygon, and the request for its modes with half the error asked for:
-/// a relative error of wavenumbers is up to two of frequencies. `None` for any other surface.
+/// The membrane that has the modes of a supported plate on a convex polygon, and the request for its modes
+/// with half the requested error, since a relative error of wavenumbers is up to doubled in frequencies.
+/// `None` for any other surface.
 ///
 /// # Errors
 /// [`PhysicsError::Outline`] for an invalid outline.
@@ -26,7 +28,7 @@ pub(super) fn membrane(
     surface: &Surface,
     bounds: &Bounds,
 ) -> Result<Option<(Surface, Bounds)>, PhysicsError> {
-    if bounds.medium.bending_stiffness <= 0.0 || !surface.sheet.uneven.is_nothing() {
+    if bounds.medium.bending_stiffness <= 0.0 || !surface.sheet.uneven.is_uniform() {
         return Ok(None);
     }
     let rims = Rims::new(&surface.outline)?;
@@ -44,7 +46,7 @@ pub(super) fn membrane(
     Ok(Some((membrane, as_membrane)))
 }
 
-/// The modes of the plate from those of its membrane.
+/// The modes of the plate from the modes of the membrane.
 pub(super) fn plate(membrane: Solution, as_membrane: &Bounds, bounds: &Bounds) -> Solution {
     let Solution { space, mut pairs, mut bending_shares, edge } = membrane;
     let (of_membrane, of_plate) = (as_membrane.vacuum(), bounds.vacuum());
@@ -56,7 +58,7 @@ pub(super) fn plate(membrane: Solution, as_membrane: &Bounds, bounds: &Bounds) -
     Solution { space, pairs, bending_shares, edge }
 }
 
-/// The plate's refusal from that of its membrane.
+/// The error to report for the plate, given the error of solving for the membrane.
 pub(super) fn refusal(of_membrane: PhysicsError) -> PhysicsError {
     match of_membrane {
         PhysicsError::NotConverged { max_hz, expected, found } => {
@@ -66,12 +68,13 @@ pub(super) fn refusal(of_membrane: PhysicsError) -> PhysicsError {
     }
 }
 
-/// The relative error of the plate's frequencies, as k² + T/D at most, from that of the membrane's.
+/// The largest relative error of the plate's frequencies, which grow as k² + T/D at most, given the
+/// relative error of the membrane's frequencies.
 pub(super) fn of_plate(error: f64) -> f64 {
     2.0 * error
 }
 
-/// The relative error of the membrane's frequencies for one of the plate's.
+/// The relative error to request of the membrane's frequencies for a relative error of the plate's.
 fn of_membrane(error: f64) -> f64 {
     0.5 * error
 }

@@ -28,7 +28,7 @@ impl Problem {
         let problem = Self { sides: [width, height], edges, bounds };
         // The Ritz functions are those of a sheet with bending stiffness, and waves between elastic sides have no closed form.
         let membrane = bounds.medium.bending_stiffness == 0.0 && problem.has_springs();
-        let plain = surface.outline.holes.is_empty() && surface.sheet.uneven.is_nothing();
+        let plain = surface.outline.holes.is_empty() && surface.sheet.uneven.is_uniform();
         Ok((plain && !membrane && !problem.is_hinged()).then_some(problem))
     }
 

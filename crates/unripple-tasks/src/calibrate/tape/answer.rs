@@ -1,7 +1,7 @@
 //! The report of a calibration by recordings made elsewhere: what was measured, what is still to be
 //! recorded, what is wrong.
 
-use super::{Bench, Outcome, Wanted, fault::Fault, plan::PLAY};
+use super::{Outcome, TapeCalibration, Wanted, fault::Fault, plan::PLAY};
 use crate::TaskError;
 use crate::calibrate::outcome::doubted;
 use crate::calibrate::{Report, report};
@@ -12,7 +12,7 @@ use std::fmt::Write;
 /// reported.
 const LISTED: usize = 12;
 
-impl Bench<'_> {
+impl TapeCalibration<'_> {
     /// Makes the report: what was measured, what is still to be recorded, and what is wrong.
     pub fn answer(
         &self,

@@ -25,11 +25,11 @@ pub struct Wanted {
 /// Points of the recordings that a plan requests: the place of the probe at each, and the beginning of its
 /// files' names.
 #[derive(Clone, Debug, Default)]
-pub struct Asked {
+pub struct PlannedPoints {
     points: Vec<(Point, String)>,
 }
 
-impl Asked {
+impl PlannedPoints {
     /// Reads the points of the requested recordings from a plan.
     pub fn of(plan: &Value) -> Self {
         let recordings = plan["recordings"].as_array().into_iter().flatten();
@@ -103,19 +103,19 @@ mod tests {
     #[test]
     fn old_points_keep_their_files_and_new_ones_count_on() {
         let files = |wanted: &[Wanted]| wanted.iter().map(|one| one.file.clone()).collect::<Vec<_>>();
-        let first = Asked::default().wanted(&places(&[(1.0, 2.0), (3.0, 4.0)]), true, 2);
+        let first = PlannedPoints::default().wanted(&places(&[(1.0, 2.0), (3.0, 4.0)]), true, 2);
         let names = ["actuators.wav", "actuators-2.wav", "point-001.wav", "point-001-2.wav", "point-002.wav"];
         assert_eq!(files(&first)[..5], names);
         let recordings: Vec<Value> = first
             .iter()
             .map(|one| json!({ "file": one.file, "probe_at_m": one.at.map(|at| [at.x, at.y]), "repeat": one.repeat + 1 }))
             .collect();
-        let plan = Asked::of(&json!({ "recordings": recordings }));
+        let plan = PlannedPoints::of(&json!({ "recordings": recordings }));
         // A new point before, and one between.
         let more = plan.wanted(&places(&[(9.0, 9.0), (3.0, 4.0), (5.0, 5.0), (1.0, 2.0)]), false, 1);
         assert_eq!(files(&more), ["point-003.wav", "point-002.wav", "point-004.wav", "point-001.wav"]);
         assert!(plan.lost(&plan).is_empty());
-        let lost = plan.lost(&Asked { points: plan.points[..1].to_vec() });
+        let lost = plan.lost(&PlannedPoints { points: plan.points[..1].to_vec() });
         assert!(lost.len() == 1 && lost[0].contains("point-002.wav at (3.0000, 4.0000) mm"), "{lost:?}");
     }
 }

@@ -1,7 +1,7 @@
 //! The library that recordings are evaluated into: a new one, the existing one, or the existing one with
 //! more points.
 
-use super::Bench;
+use super::TapeCalibration;
 use crate::TaskError;
 use crate::calibrate::campaign::{Campaign, PROBED};
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use unripple_store::{Library, LibraryPlan};
 /// Distance in metres below which two places count as the same.
 const SAME: f64 = 1e-9;
 
-impl Bench<'_> {
+impl TapeCalibration<'_> {
     /// Creates or opens the library of this calibration, and adds points that the plan has gained.
     pub fn library(&self) -> Result<Library, TaskError> {
         let (folder, plan) = (&self.campaign.ask.output, self.campaign.plan());

@@ -3,14 +3,14 @@
 use super::asked::Wanted;
 use super::fault::Fault;
 use super::marks::Marks;
-use super::rig::{TapeRig, TapeShelf, bad};
-use super::wiring::{Failed, Tried, tried};
-use super::{Bench, Outcome};
+use super::rig::{TapeLibraryFiller, TapeRig, bad};
+use super::wiring::{Failed, WiringResult, test_wiring};
+use super::{Outcome, TapeCalibration};
 use crate::TaskError;
 use crate::calibrate::finish::{begin, finish, log_run};
 use crate::calibrate::middle;
 use crate::calibrate::report::Report;
-use crate::calibrate::shelf::Shelf;
+use crate::calibrate::shelf::LibraryFiller;
 use crate::calibrate::wires::{self, WIRING};
 use serde_json::{Value, json};
 use std::collections::btree_map::Entry;
@@ -20,7 +20,7 @@ use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Session, Sink};
 use unripple_store::{Doubt, Library, PointState};
 
-impl Bench<'_> {
+impl TapeCalibration<'_> {
     /// Fills the library with all responses that can be computed from the recordings.
     pub fn measure(&mut self, first: &Session) -> Result<Outcome, TaskError> {
         let start = Instant::now();
@@ -47,7 +47,7 @@ impl Bench<'_> {
         let all: Vec<Wanted> = own.into_iter().chain(sound).collect();
 
         let mut rig = TapeRig::new(self.takes.clone(), all.clone())?;
-        let tried = match tried(self, first, &mut rig) {
+        let wiring = match test_wiring(self, first, &mut rig) {
             Err(Failed::Recording(why)) => {
                 let files: Vec<String> =
                     all.iter().filter(|one| one.at.is_none()).map(|one| one.file.clone()).collect();
@@ -55,17 +55,17 @@ impl Bench<'_> {
                 return Ok(Outcome { faults, ..Outcome::default() });
             }
             Err(Failed::Other(error)) => return Err(error),
-            Ok(tried) => tried,
+            Ok(wiring) => wiring,
         };
-        self.wires(&mut library, &tried)?;
-        self.campaign.settings.without = tried.dead.clone();
+        self.wires(&mut library, &wiring)?;
+        self.campaign.settings.without = wiring.dead.clone();
         marks.keep(&mut library)?;
         begin(&self.campaign, &mut library)?;
         let made = self.made(&all, &marks);
-        let mut work = Work { bench: self, rig, made, made_own, all, faults, known: None, start };
-        let (shelf, report) = work.fill(library, &tried)?;
+        let mut work = Work { calibration: self, rig, made, made_own, all, faults, known: None, start };
+        let (filler, report) = work.fill(library, &wiring)?;
         let faults = std::mem::take(&mut work.faults);
-        Ok(Outcome { report: Some(report), library: Some(shelf.library), faults, notes: tried.notes })
+        Ok(Outcome { report: Some(report), library: Some(filler.library), faults, notes: wiring.notes })
     }
 
     /// Files from which stored points were measured and which are unchanged: where another file is a copy,
@@ -153,17 +153,17 @@ impl Bench<'_> {
 
     /// Returns an error for faults of the wiring, or records them as doubts in the library if the request
     /// accepts them.
-    fn wires(&self, library: &mut Library, tried: &Tried) -> Result<(), TaskError> {
-        let refused = !tried.faults.is_empty() && !self.campaign.ask.any_wiring;
-        wires::tell(&self.campaign, &tried.notes, if refused { &[] } else { &tried.faults });
+    fn wires(&self, library: &mut Library, wiring: &WiringResult) -> Result<(), TaskError> {
+        let refused = !wiring.faults.is_empty() && !self.campaign.ask.any_wiring;
+        wires::tell(&self.campaign, &wiring.notes, if refused { &[] } else { &wiring.faults });
         if refused {
             return Err(TaskError::Work(format!(
                 "wiring: {} (mend it and record again; name channels as they were recorded with `tape_inputs`, or turn a reversed one with \
                  `input_scales` NAME=-1; or go on with `any_wiring`)",
-                tried.faults.join("; ")
+                wiring.faults.join("; ")
             )));
         }
-        let doubts = tried.faults.iter().map(|fault| Doubt::of(WIRING, fault)).collect();
+        let doubts = wiring.faults.iter().map(|fault| Doubt::of(WIRING, fault)).collect();
         Ok(library.set_doubts(WIRING, doubts)?)
     }
 }
@@ -181,7 +181,7 @@ fn heard(found: Result<Vec<Channel>, CalibrateError>) -> Result<Result<Vec<Chann
 
 /// State of the evaluation of recordings into a library.
 struct Work<'b, 'a> {
-    bench: &'b Bench<'a>,
+    calibration: &'b TapeCalibration<'a>,
     rig: TapeRig,
     /// The data from which each point is computed, by its number.
     made: BTreeMap<usize, Value>,
@@ -196,45 +196,49 @@ struct Work<'b, 'a> {
 }
 
 impl Work<'_, '_> {
-    fn fill(&mut self, library: Library, tried: &Tried) -> Result<(Shelf, Report), TaskError> {
-        let bench = self.bench;
-        let known = &bench.campaign;
+    fn fill(
+        &mut self,
+        library: Library,
+        wiring: &WiringResult,
+    ) -> Result<(LibraryFiller, Report), TaskError> {
+        let calibration = self.calibration;
+        let known = &calibration.campaign;
         let (last, centre) = (known.places.points.len(), middle(known.surface));
-        let dead = tried.dead.clone();
-        let mut shelf = Shelf::new(library, known.places.probed, known.surface, &known.scales, dead);
-        shelf.deaf.clone_from(&tried.deaf);
-        let unheard: Vec<usize> = tried.dead.iter().chain(&tried.deaf).copied().collect();
+        let dead = wiring.dead.clone();
+        let mut filler = LibraryFiller::new(library, known.places.probed, known.surface, &known.scales, dead);
+        filler.deaf.clone_from(&wiring.deaf);
+        let unheard: Vec<usize> = wiring.dead.iter().chain(&wiring.deaf).copied().collect();
         let first = self.session(&MeasureOptions { without: unheard, ..known.settings.clone() })?;
         let latency = first.find_latency(&mut self.rig, last, centre, known.model)?;
         let settings =
             MeasureOptions { latency: latency.map_or(0.0, |found| found[0]), ..known.settings.clone() };
-        self.keep_own(&settings, &mut shelf, tried)?;
-        self.known = shelf.heard()?;
-        let before = shelf.missing().len();
-        self.keep_points(&settings, &mut shelf)?;
-        finish(known, &mut shelf, latency)?;
-        let (measured, taken) = (before - shelf.missing().len(), self.start.elapsed());
+        self.keep_own(&settings, &mut filler, wiring)?;
+        self.known = filler.heard()?;
+        let before = filler.missing().len();
+        self.keep_points(&settings, &mut filler)?;
+        finish(known, &mut filler, latency)?;
+        let (measured, taken) = (before - filler.missing().len(), self.start.elapsed());
         if measured > 0 {
-            log_run(known, &mut shelf.library, measured, taken.as_secs_f64())?;
+            log_run(known, &mut filler.library, measured, taken.as_secs_f64())?;
         }
         let seconds = self.session(&settings)?.seconds();
-        let report = self.report(&shelf, latency, seconds, taken)?;
-        Ok((shelf, report))
+        let report = self.report(&filler, latency, seconds, taken)?;
+        Ok((filler, report))
     }
 
     fn report(
         &self,
-        shelf: &Shelf,
+        filler: &LibraryFiller,
         latency: Option<[f64; 2]>,
         seconds: f64,
         taken: Duration,
     ) -> Result<Report, TaskError> {
-        Report::of(&shelf.library, &self.bench.campaign.places, latency, None, seconds, taken)
+        Report::of(&filler.library, &self.calibration.campaign.places, latency, None, seconds, taken)
     }
 
     fn session(&self, settings: &MeasureOptions) -> Result<Session, TaskError> {
-        let takes = &self.bench.takes;
-        Ok(Session::new(self.bench.campaign.surface, takes.layout(), takes.wires.clone(), settings)?)
+        let takes = &self.calibration.takes;
+        Ok(Session::new(self.calibration.campaign.surface, takes.layout(), takes.wires.clone(), settings)?)
     }
 
     /// A session that compares the sensors' signals in each recording with those in the recording of the
@@ -242,7 +246,7 @@ impl Work<'_, '_> {
     fn following(&self, settings: &MeasureOptions) -> Result<Session, TaskError> {
         let mut session = self.session(settings)?;
         if let Some(known) = &self.known {
-            session.follow(known)?;
+            session.set_reference(known)?;
         }
         Ok(session)
     }
@@ -258,13 +262,13 @@ impl Work<'_, '_> {
     fn keep_own(
         &mut self,
         settings: &MeasureOptions,
-        shelf: &mut Shelf,
-        tried: &Tried,
+        filler: &mut LibraryFiller,
+        wiring: &WiringResult,
     ) -> Result<(), TaskError> {
-        let bench = self.bench;
-        let known = &bench.campaign;
+        let calibration = self.calibration;
+        let known = &calibration.campaign;
         let (last, centre) = (known.places.points.len(), middle(known.surface));
-        let missing = shelf.library.in_state(PointState::Missing);
+        let missing = filler.library.in_state(PointState::Missing);
         if !missing.iter().any(|point| *point >= known.places.probed) {
             return Ok(());
         }
@@ -281,7 +285,7 @@ impl Work<'_, '_> {
         };
         let names = known.surface.actuators.iter().map(|actuator| &actuator.name);
         let said = |(actuator, (name, channel)): (usize, (&String, &Channel))| {
-            let why = session.fault(channel).filter(|_| !tried.deaf.contains(&actuator))?;
+            let why = session.fault(channel).filter(|_| !wiring.deaf.contains(&actuator))?;
             Some(bad(&files.join(", "), &format!("sensor of `{name}`, {why}")))
         };
         let faults: Vec<Fault> = names.zip(&sensors).enumerate().filter_map(said).collect();
@@ -290,22 +294,27 @@ impl Work<'_, '_> {
             return Ok(());
         }
         for (point, channel) in (known.places.probed..).zip(&sensors) {
-            shelf.keep(point, channel, session.fault(channel).as_deref())?;
+            filler.keep(point, channel, session.fault(channel).as_deref())?;
         }
-        shelf.library.log("own", self.made_own.clone().unwrap_or(Value::Null))?;
-        shelf.reciprocity(&sensors)
+        filler.library.log("own", self.made_own.clone().unwrap_or(Value::Null))?;
+        filler.reciprocity(&sensors)
     }
 
     /// Measures and stores the points that have recordings; a point with fewer recordings than requested is
     /// averaged over those that exist.
-    fn keep_points(&mut self, settings: &MeasureOptions, shelf: &mut Shelf) -> Result<(), TaskError> {
-        let bench = self.bench;
-        let known = &bench.campaign;
-        let missing = shelf.missing();
-        let there: Vec<usize> = self.bench.good.iter().copied().filter(|n| missing.contains(n)).collect();
+    fn keep_points(
+        &mut self,
+        settings: &MeasureOptions,
+        filler: &mut LibraryFiller,
+    ) -> Result<(), TaskError> {
+        let calibration = self.calibration;
+        let known = &calibration.campaign;
+        let missing = filler.missing();
+        let there: Vec<usize> =
+            self.calibration.good.iter().copied().filter(|n| missing.contains(n)).collect();
         known.with_progress(|progress| progress.stage("points"));
         let keep_bad = known.ask.any_wiring;
-        let mut sink = TapeShelf::new(shelf, self.made.clone());
+        let mut sink = TapeLibraryFiller::new(filler, self.made.clone());
         let mut failed = Vec::new();
         let mut sessions: BTreeMap<usize, Session> = BTreeMap::new();
         for (done, number) in there.iter().copied().enumerate() {
@@ -345,7 +354,7 @@ impl Work<'_, '_> {
     fn name(&mut self, settings: &MeasureOptions, number: usize, why: &str) -> Result<(), TaskError> {
         let files: Vec<String> =
             self.all.iter().filter(|one| one.number == number).map(|one| one.file.clone()).collect();
-        let at = self.bench.campaign.places.points[number];
+        let at = self.calibration.campaign.places.points[number];
         let mut named = Vec::new();
         if files.len() > 1 {
             let alone = self.following(&MeasureOptions { repeats: 1, ..settings.clone() })?;

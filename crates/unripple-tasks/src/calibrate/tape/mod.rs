@@ -18,7 +18,7 @@ use super::points::{self, middle};
 use super::{Report, figure, levels, report};
 
 use crate::TaskError;
-use asked::{Asked, Wanted};
+use asked::{PlannedPoints, Wanted};
 use fault::Fault;
 use read::Reader;
 use std::path::{Path, PathBuf};
@@ -38,7 +38,7 @@ const MOST_RECORDINGS: usize = 100_000;
 pub(super) use plan::drive as sweeps;
 
 /// A calibration by recordings, with the recordings that it needs.
-struct Bench<'a> {
+struct TapeCalibration<'a> {
     campaign: Campaign<'a>,
     wanted: Vec<Wanted>,
     takes: Takes,
@@ -89,22 +89,25 @@ pub(super) fn run(mut campaign: Campaign<'_>) -> Result<Report, TaskError> {
     let drive = plan::drive(&session, &layout, middle(surface))?;
     let reader = Reader { layout, band: session.band(), resample: ask.resample };
     let takes = Takes::new(folder.into(), reader, wires, drive);
-    let asked = before.as_ref().map(Asked::of).unwrap_or_default();
+    let planned = before.as_ref().map(PlannedPoints::of).unwrap_or_default();
     let hears_itself = !takes.telling().is_empty();
-    let wanted = asked.wanted(&campaign.places, hears_itself, campaign.settings.repeats);
+    let wanted = planned.wanted(&campaign.places, hears_itself, campaign.settings.repeats);
     let told = plan::told(&surface.name, takes.layout(), &takes.drive, &campaign.settings, &wanted);
     plan::put(folder, &told, &takes.drive, before.as_ref())?;
 
-    let mut bench = Bench { campaign, wanted, takes, folder, good: Vec::new() };
+    let mut calibration = TapeCalibration { campaign, wanted, takes, folder, good: Vec::new() };
     if ask.check_levels {
-        return Report::of_levels(&levels::look(&bench.recordings(), &bench.takes.reader.layout.inputs)?);
+        return Report::of_levels(&levels::look(
+            &calibration.recordings(),
+            &calibration.takes.reader.layout.inputs,
+        )?);
     }
-    let outcome = if bench.can_begin() { bench.measure(&session)? } else { Outcome::default() };
+    let outcome = if calibration.can_begin() { calibration.measure(&session)? } else { Outcome::default() };
     let drawn = match &outcome.library {
-        Some(library) => figure::write(&mut bench.campaign, library),
+        Some(library) => figure::write(&mut calibration.campaign, library),
         None => Ok(()),
     };
-    bench.answer(outcome, &told, drawn)
+    calibration.answer(outcome, &told, drawn)
 }
 
 /// Returns an error for more recordings than anybody makes.
@@ -141,7 +144,7 @@ fn layout(ask: &Ask, surface: &Surface, full_scale: f64) -> Result<Layout, TaskE
     })
 }
 
-impl Bench<'_> {
+impl TapeCalibration<'_> {
     fn there(&self, wanted: &Wanted) -> bool {
         self.folder.join(&wanted.file).is_file()
     }

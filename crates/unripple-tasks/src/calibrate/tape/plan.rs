@@ -1,6 +1,6 @@
 //! The plan of a calibration by recordings: the signal to play, and the recordings to make of it.
 
-use super::asked::{Asked, Wanted};
+use super::asked::{PlannedPoints, Wanted};
 use crate::TaskError;
 use crate::calibrate::ask::Ask;
 use serde_json::{Value, json};
@@ -181,7 +181,7 @@ fn differences(plan: &Value, before: &Value) -> Vec<String> {
         })
         .collect();
     if other.is_empty() {
-        other.extend(Asked::of(before).lost(&Asked::of(plan)));
+        other.extend(PlannedPoints::of(before).lost(&PlannedPoints::of(plan)));
     }
     other
 }

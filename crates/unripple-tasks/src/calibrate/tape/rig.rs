@@ -4,7 +4,7 @@ use super::asked::Wanted;
 use super::fault::Fault;
 use super::takes::Takes;
 use crate::TaskError;
-use crate::calibrate::shelf::Shelf;
+use crate::calibrate::shelf::LibraryFiller;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use unripple::core::{Device, Point};
@@ -55,25 +55,25 @@ const AT_ONCE: usize = 32;
 
 /// Stores points in a library, and records in its log what each was computed from: recordings, scales and
 /// options.
-pub struct TapeShelf<'a> {
-    shelf: &'a mut Shelf,
+pub struct TapeLibraryFiller<'a> {
+    filler: &'a mut LibraryFiller,
     /// What each point is computed from, by the points' numbers.
     made: BTreeMap<usize, Value>,
     /// Log entries that are still to be written, by the points' numbers.
     pending: BTreeMap<usize, Value>,
 }
 
-impl<'a> TapeShelf<'a> {
-    /// Storage for points in the library of `shelf`; `made` contains, by the points' numbers, what each
+impl<'a> TapeLibraryFiller<'a> {
+    /// Storage for points in the library of `filler`; `made` contains, by the points' numbers, what each
     /// point is computed from.
-    pub fn new(shelf: &'a mut Shelf, made: BTreeMap<usize, Value>) -> Self {
-        Self { shelf, made, pending: BTreeMap::new() }
+    pub fn new(filler: &'a mut LibraryFiller, made: BTreeMap<usize, Value>) -> Self {
+        Self { filler, made, pending: BTreeMap::new() }
     }
 
     /// Stores the responses of point `number`, and notes what they were computed from for the log; `fault`
     /// marks them as bad.
     pub fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), TaskError> {
-        self.shelf.keep(number, channel, fault)?;
+        self.filler.keep(number, channel, fault)?;
         // Responses first: a point whose log was not written is measured again.
         let made = self.made.get(&number).cloned().unwrap_or(Value::Null);
         self.pending.insert(number, json!({ "made": made }));
@@ -83,7 +83,7 @@ impl<'a> TapeShelf<'a> {
     /// Writes the pending notes on what points were computed from to the library's log.
     pub fn log(&mut self) -> Result<(), TaskError> {
         let pending = std::mem::take(&mut self.pending);
-        if pending.is_empty() { Ok(()) } else { Ok(self.shelf.library.log_points(pending)?) }
+        if pending.is_empty() { Ok(()) } else { Ok(self.filler.library.log_points(pending)?) }
     }
 }
 

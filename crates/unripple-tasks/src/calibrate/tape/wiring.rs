@@ -1,6 +1,6 @@
 //! The wiring test by recordings made elsewhere: which actuators and sensors are dead, swapped or reversed.
 
-use super::Bench;
+use super::TapeCalibration;
 use super::rig::TapeRig;
 use crate::TaskError;
 use crate::calibrate::middle;
@@ -34,7 +34,7 @@ const LOOKED_AT: usize = 3;
 
 /// Result of the wiring test by recordings: dead actuators and sensors, and faults of the wiring.
 #[derive(Clone, Debug, Default)]
-pub struct Tried {
+pub struct WiringResult {
     /// Indices of actuators whose drive no input records.
     pub dead: Vec<usize>,
     /// Indices of actuators whose sensor records nothing.
@@ -69,38 +69,47 @@ impl From<DevicesError> for Failed {
 }
 
 /// Tests the wiring by the recording of the actuators, and that of the first point that has one.
-pub fn tried(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Tried, Failed> {
-    let mut tried = Tried { dead: bench.campaign.settings.without.clone(), ..Tried::default() };
-    let rows = heard(bench, session, rig)?;
+pub fn test_wiring(
+    calibration: &TapeCalibration<'_>,
+    session: &Session,
+    rig: &mut TapeRig,
+) -> Result<WiringResult, Failed> {
+    let mut result =
+        WiringResult { dead: calibration.campaign.settings.without.clone(), ..WiringResult::default() };
+    let rows = heard(calibration, session, rig)?;
     if rows.is_empty() {
-        return Ok(tried);
+        return Ok(result);
     }
-    tried.silent(bench, &rows);
-    if bench.takes.wires.sensors.is_empty() || !tried.faults.is_empty() {
-        return Ok(tried);
+    result.silent(calibration, &rows);
+    if calibration.takes.wires.sensors.is_empty() || !result.faults.is_empty() {
+        return Ok(result);
     }
-    let reciprocal = tried.reciprocal(bench, session, rig, &rows)?;
-    if bench.campaign.settings.model {
-        tried.model(bench, session, rig, &rows)?;
+    let reciprocal = result.reciprocal(calibration, session, rig, &rows)?;
+    if calibration.campaign.settings.model {
+        result.model(calibration, session, rig, &rows)?;
     }
-    if tried.faults.is_empty() {
-        tried.faults = reciprocal;
+    if result.faults.is_empty() {
+        result.faults = reciprocal;
     }
-    Ok(tried)
+    Ok(result)
 }
 
 /// Responses from all actuators to all sensors; without sensors, those to the probe at some points.
-fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<Channel>, Failed> {
-    let (last, centre) = (bench.campaign.places.points.len(), middle(bench.campaign.surface));
-    if !bench.takes.wires.sensors.is_empty() {
+fn heard(
+    calibration: &TapeCalibration<'_>,
+    session: &Session,
+    rig: &mut TapeRig,
+) -> Result<Vec<Channel>, Failed> {
+    let (last, centre) = (calibration.campaign.places.points.len(), middle(calibration.campaign.surface));
+    if !calibration.takes.wires.sensors.is_empty() {
         return Ok(session.measure(rig, last, centre, 0, Listen::Sensors)?);
     }
     let mut rows = Vec::new();
-    for number in bench.good.iter().copied() {
+    for number in calibration.good.iter().copied() {
         if rows.len() >= LOOKED_AT {
             break;
         }
-        match session.measure(rig, number, bench.campaign.places.points[number], 0, Listen::Probe) {
+        match session.measure(rig, number, calibration.campaign.places.points[number], 0, Listen::Probe) {
             Ok(heard) => rows.extend(heard),
             // A point's recording that is no good is reported when it is measured.
             Err(CalibrateError::Recording { .. } | CalibrateError::Dsp(_)) => {}
@@ -110,11 +119,11 @@ fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<
     Ok(rows)
 }
 
-impl Tried {
+impl WiringResult {
     /// Reports actuators that drive nothing, and those whose sensor records nothing.
-    fn silent(&mut self, bench: &Bench<'_>, rows: &[Channel]) {
-        let actuators = &bench.campaign.surface.actuators;
-        let sensing = rows.len() == actuators.len() && !bench.takes.wires.sensors.is_empty();
+    fn silent(&mut self, calibration: &TapeCalibration<'_>, rows: &[Channel]) {
+        let actuators = &calibration.campaign.surface.actuators;
+        let sensing = rows.len() == actuators.len() && !calibration.takes.wires.sensors.is_empty();
         // A sensor that records any actuator is not dead, however many actuators are.
         let noisy = |channel: &Channel| {
             let best = channel.quality.iter().map(|quality| quality.snr_db);
@@ -140,7 +149,7 @@ impl Tried {
             return;
         }
         for actuator in quiet.iter().filter(|actuator| !self.dead.contains(actuator)) {
-            let (name, output) = (name(actuator), bench.takes.wires.drives[*actuator] + 1);
+            let (name, output) = (name(actuator), calibration.takes.wires.drives[*actuator] + 1);
             let too = if self.deaf.contains(actuator) { ", and its own sensor receives nothing" } else { "" };
             self.notes.push(format!(
                 "actuator `{name}` is dead: no sensor receives its sweep (output {output}){too}; check its amplifier, its cable and the \
@@ -150,7 +159,7 @@ impl Tried {
         let alone: Vec<usize> =
             self.deaf.iter().copied().filter(|actuator| !quiet.contains(actuator)).collect();
         for actuator in alone {
-            let input = bench.takes.reader.named(bench.takes.wires.sensors[actuator]);
+            let input = calibration.takes.reader.named(calibration.takes.wires.sensors[actuator]);
             self.notes.push(format!(
                 "the sensor of `{}` receives nothing, {input}: check its cable and gain. Its own point is left out",
                 actuators[actuator].name
@@ -168,14 +177,14 @@ impl Tried {
     /// Faults of the wiring that contradict reciprocity.
     fn reciprocal(
         &self,
-        bench: &Bench<'_>,
+        calibration: &TapeCalibration<'_>,
         session: &Session,
         rig: &mut TapeRig,
         rows: &[Channel],
     ) -> Result<Vec<String>, Failed> {
         let alive = self.alive(rows.len());
         let names: Vec<String> =
-            alive.iter().map(|a| bench.campaign.surface.actuators[*a].name.clone()).collect();
+            alive.iter().map(|a| calibration.campaign.surface.actuators[*a].name.clone()).collect();
         let of = |channel: &Channel, scale: f64| -> Vec<Vec<f64>> {
             let scaled = |drive: &usize| channel.responses[*drive].iter().map(|h| h * scale).collect();
             alive.iter().map(scaled).collect()
@@ -183,11 +192,12 @@ impl Tried {
         let heard: Vec<Vec<Vec<f64>>> = alive
             .iter()
             .zip(&names)
-            .map(|(a, name)| of(&rows[*a], bench.campaign.scales.input(name)))
+            .map(|(a, name)| of(&rows[*a], calibration.campaign.scales.input(name)))
             .collect();
         let mut spare = Vec::new();
-        if bench.takes.wires.probe.is_some() {
-            let (last, centre) = (bench.campaign.places.points.len(), middle(bench.campaign.surface));
+        if calibration.takes.wires.probe.is_some() {
+            let (last, centre) =
+                (calibration.campaign.places.points.len(), middle(calibration.campaign.surface));
             let probe = session.measure(rig, last, centre, 0, Listen::Probe)?;
             spare.extend(probe.iter().map(|channel| (PROBE.to_owned(), of(channel, 1.0))));
         }
@@ -198,28 +208,28 @@ impl Tried {
     /// enough.
     fn model(
         &mut self,
-        bench: &Bench<'_>,
+        calibration: &TapeCalibration<'_>,
         session: &Session,
         rig: &mut TapeRig,
         rows: &[Channel],
     ) -> Result<(), Failed> {
-        let model = bench.campaign.model;
+        let model = calibration.campaign.model;
         let alive = self.alive(rows.len());
         let outputs: Vec<String> = alive.iter().map(|a| model.ports[*a].name.clone()).collect();
-        let Held { names, channels, at } = Held::of(bench, session, rig, rows, &alive);
+        let Held { names, channels, at } = Held::of(calibration, session, rig, rows, &alive);
         let options = WiringOptions::for_band(model.conditions.band);
-        let all = Expected::of(bench.campaign.surface, model, at, options.listen)?;
+        let all = Expected::of(calibration.campaign.surface, model, at, options.listen)?;
         let inputs: Vec<usize> = alive.iter().copied().chain(at.map(|_| model.ports.len())).collect();
         let response = |o: &usize, i: &usize| all.response(*o, *i).to_vec();
         let row = |o: &usize| inputs.iter().map(|i| response(o, i)).collect();
         let expected = Expected::new(alive.iter().map(row).collect())?;
         let scaled = |(channel, name): (&Channel, &String), drive: usize| {
-            let scale = bench.campaign.scales.input(name);
+            let scale = calibration.campaign.scales.input(name);
             channel.responses[drive].iter().map(|h| h * scale).collect::<Vec<f64>>()
         };
         let of = |drive: &usize| channels.iter().zip(&names).map(|pair| scaled(pair, *drive)).collect();
         let heard: Vec<Vec<Vec<f64>>> = alive.iter().map(of).collect();
-        let layout = Layout { outputs, inputs: names, ..bench.takes.layout().clone() };
+        let layout = Layout { outputs, inputs: names, ..calibration.takes.layout().clone() };
         let [low, high] = model.conditions.band;
         let found = BURSTS.map(|share| {
             let frequency = low + share * (high - low);
@@ -268,18 +278,18 @@ impl Held {
     /// The sensors of the actuators `alive`; if there is a probe, all from the recording of one point, so
     /// that a swap of probe and sensor shows.
     fn of(
-        bench: &Bench<'_>,
+        calibration: &TapeCalibration<'_>,
         session: &Session,
         rig: &mut TapeRig,
         rows: &[Channel],
         alive: &[usize],
     ) -> Self {
         let mut names: Vec<String> =
-            alive.iter().map(|a| bench.campaign.model.ports[*a].name.clone()).collect();
+            alive.iter().map(|a| calibration.campaign.model.ports[*a].name.clone()).collect();
         let of = |all: &[Channel]| alive.iter().map(|a| all[*a].clone()).collect::<Vec<_>>();
-        let point = bench.good.first().copied().filter(|_| bench.takes.wires.probe.is_some());
+        let point = calibration.good.first().copied().filter(|_| calibration.takes.wires.probe.is_some());
         let both = point.map(|number| {
-            let at = bench.campaign.places.points[number];
+            let at = calibration.campaign.places.points[number];
             let sensors = session.measure(rig, number, at, 0, Listen::Sensors)?;
             Ok::<_, CalibrateError>((at, sensors, session.measure(rig, number, at, 0, Listen::Probe)?))
         });
