@@ -16,7 +16,7 @@ use unripple_physics::{Modes, PhysicsError};
 const RADIUS: f64 = 0.07;
 
 /// The accuracies asked for.
-const ASKED: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
+const ASKED: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 fn main() {
     println!("| sheet | modes | {} |", ASKED.map(|a| format!("asked {a:.0e}")).join(" | "));

@@ -12,7 +12,7 @@ use tokio::time::{Instant, MissedTickBehavior, timeout};
 
 /// Number of frames that may be sent before the page says that it has drawn them. With one a distant page draws one frame for each round
 /// trip; with many it lags behind by as many.
-const UNSEEN: u64 = 3;
+const UNSEEN: u64 = 4;
 
 /// A page that does not say what it has drawn is shown a frame this often. So a hidden page still follows, and costs
 /// next to nothing.
@@ -107,14 +107,14 @@ impl Link {
                     let gone = self.unanswered > UNANSWERED;
                     if gone || !send(socket, Message::Ping(Default::default())).await { return }
                 }
-                () = tokio::time::sleep_until(late), if self.shown > self.seen + UNSEEN => self.seen = self.shown,
+                () = tokio::time::sleep_until(late), if self.shown >= self.seen + UNSEEN => self.seen = self.shown,
             }
         }
     }
 
     /// Sends what the page has not been sent; frames only as fast as it draws them.
     async fn catch_up(&mut self, socket: &mut WebSocket) -> bool {
-        let waits = self.shown.saturating_sub(self.seen) > UNSEEN;
+        let waits = self.shown.saturating_sub(self.seen) >= UNSEEN;
         for (version, notice) in self.host.notices.since(self.texts.min(self.frames)) {
             let message = match notice {
                 Notice::Text(text) if version > self.texts => {
