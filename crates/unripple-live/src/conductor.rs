@@ -3,7 +3,7 @@
 use crate::log::{Began, Log};
 use crate::pace::Pace;
 use crate::pulses::Ahead;
-use crate::sounding::{Inputs, SustainedSound, VoiceState};
+use crate::voice_state::{Inputs, SustainedSound, VoiceState};
 use crate::waiting::Waiting;
 use crate::{DriveCache, FocusWorker, LiveError, PlayStats, Timeline, Timing};
 use std::collections::BTreeMap;

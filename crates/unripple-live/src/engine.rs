@@ -1,7 +1,7 @@
 //! Live play of a surface: sources of touches, effects, player and device joined.
 
-use crate::ears::TouchInput;
 use crate::pinging::Pinging;
+use crate::touch_input::TouchInput;
 use crate::{
     Conductor, DriveCache, FocusWorker, Follower, Heartbeat, Listener, LiveError, LiveOptions, Percentiles,
     Stage, Timing,

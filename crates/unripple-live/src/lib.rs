@@ -48,7 +48,6 @@
 mod beats;
 mod conductor;
 mod drive_cache;
-mod ears;
 mod engine;
 mod error;
 mod focus_worker;
@@ -66,10 +65,11 @@ mod pulses;
 mod recovering;
 #[cfg(test)]
 mod slow;
-mod sounding;
 mod stage;
 mod threaded;
 mod timeline;
+mod touch_input;
+mod voice_state;
 mod voices;
 mod waiting;
 mod window;

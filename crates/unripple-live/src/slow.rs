@@ -154,7 +154,7 @@ fn of_places_that_nobody_had_time_for_only_the_last_is_made() {
     (0..8).for_each(|_| slow.step(&[]));
     assert!(slow.conductor.waiting.is_empty());
     for state in slow.conductor.sounding.values() {
-        let crate::sounding::SustainedSound::Comb { place, .. } = state.sound else { panic!("{state:?}") };
+        let crate::voice_state::SustainedSound::Comb { place, .. } = state.sound else { panic!("{state:?}") };
         assert!((place.x - 0.06).abs() < 1e-9, "{place:?}");
     }
     assert!(slow.made() <= 40, "{} drives", slow.made());

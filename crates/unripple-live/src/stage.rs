@@ -1,7 +1,7 @@
 //! The part of live play outside the audio thread: touches, effects, what fingers feel.
 
-use crate::ears::TouchBatch;
 use crate::pinging::Pinging;
+use crate::touch_input::TouchBatch;
 use crate::{Conductor, Follower, LiveError, Percentiles};
 use std::time::Instant;
 use unripple_calibrate::Drift;

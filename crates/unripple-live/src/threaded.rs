@@ -1,7 +1,7 @@
 //! Live play on several threads: what each waits for, and which wakes which.
 
-use crate::ears::{TouchBatch, TouchInput};
 use crate::heartbeat::Overheard;
+use crate::touch_input::{TouchBatch, TouchInput};
 use crate::{Engine, FocusWorker, Follower, Heartbeat, LiveError, Priorities, Stage, Timeline, priority};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};

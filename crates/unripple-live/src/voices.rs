@@ -1,6 +1,6 @@
 //! Sustained sounds of the effects' voices: what is wanted, and how the player is brought to play it.
 
-use crate::sounding::{SustainedSound, VoiceState};
+use crate::voice_state::{SustainedSound, VoiceState};
 use crate::{Conductor, LiveError};
 use std::sync::Arc;
 use std::time::Instant;

@@ -6,11 +6,11 @@ mod refocus;
 
 use self::recording::Recording;
 use self::refocus::{C, Refocus};
-use super::bed::PaperSetup;
 use super::fields::first;
 use super::modes::{FORCE, actuator, closed_contrast, modal};
 use super::places::named;
 use super::section::{Compared, Picture, Predicted, Section};
+use super::setup::PaperSetup;
 use serde_json::json;
 use unripple::core::{ModalResponses, Port};
 use unripple::field::{Aim, Field};

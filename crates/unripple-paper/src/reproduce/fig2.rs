@@ -8,11 +8,11 @@ pub use triangle::triangle;
 
 use self::focus::focused;
 use self::ratio::ratio;
-use super::bed::PaperSetup;
 use super::fields::{cells, first};
 use super::modes::{FORCE, actuator, driven_at, modal};
 use super::places::place;
 use super::section::{Compared, Picture, Predicted, Section};
+use super::setup::PaperSetup;
 use serde_json::{Value, json};
 use unripple::core::{ModalResponses, Pole, window_samples};
 use unripple::field::{self, Aim, Field, Snapshot, TargetFigures};

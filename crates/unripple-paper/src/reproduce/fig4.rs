@@ -5,10 +5,10 @@ mod repeated;
 
 use self::figures::{closely, closely_caption, overview, overview_caption};
 use self::repeated::{AMPLITUDE, Pulse, RATES, Repeated, Tracked, mean};
-use super::bed::PaperSetup;
 use super::fields::largest;
 use super::modes::{closed_contrast, modal};
 use super::section::{Compared, Picture, Predicted, Section};
+use super::setup::PaperSetup;
 use serde_json::json;
 use unripple::physics::design::closed;
 use unripple_dsp::rms;

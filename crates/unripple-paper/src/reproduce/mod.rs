@@ -2,7 +2,6 @@
 //! page.
 
 mod ask;
-mod bed;
 mod cavities;
 mod coils;
 mod contrast;
@@ -21,10 +20,11 @@ mod repetition;
 mod report;
 mod run;
 mod section;
+mod setup;
 mod table1;
 
 pub use ask::Ask;
-pub(crate) use bed::PaperSetup;
 pub use report::{ComparedReport, FigureReport, PredictedReport, Report, SectionReport};
 pub use run::run;
 pub(crate) use section::{Compared, Picture, Predicted, Section};
+pub(crate) use setup::PaperSetup;

@@ -24,19 +24,19 @@
 //! # Ok::<(), StudyError>(())
 //! ```
 
-mod bench;
 mod cavities;
 mod coils;
 mod contrast;
+mod contrast_model;
 mod finger;
 mod replay;
 mod sampling;
 mod size;
 
-pub use bench::{CELLS, ContrastModel, Outside, StudyError};
 pub use cavities::cavities;
 pub use coils::{Coiled, Coils, Credibility, coils, credibility};
 pub use contrast::{Compared, against_band, against_noise, against_period, against_window};
+pub use contrast_model::{CELLS, ContrastModel, Outside, StudyError};
 pub use finger::{Touched, finger};
 pub use replay::Replay;
 pub use sampling::{Draw, Sampling};

@@ -2,7 +2,7 @@
 //! are measured.
 
 use super::campaign::{Campaign, by_taps};
-use super::shelf::LibraryFiller;
+use super::filler::LibraryFiller;
 use super::verify;
 use crate::{Record, TaskError, own};
 use serde_json::{Value, json};

@@ -2,11 +2,11 @@
 
 use super::campaign::Campaign;
 use super::devices::{self, Opened};
+use super::filler::LibraryFiller;
 use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
 use super::outcome::doubted;
 use super::points::{self, middle};
 use super::rigs::People;
-use super::shelf::LibraryFiller;
 use super::taps;
 use super::wires::{self, Found, WiringTestOptions};
 use super::{By, Hands, Report, before, figure, levels, report};

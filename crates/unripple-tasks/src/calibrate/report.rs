@@ -1,7 +1,7 @@
 //! Report of a calibration on its library.
 
+use super::filler::SAID;
 use super::points::Places;
-use super::shelf::SAID;
 use crate::TaskError;
 use serde::Serialize;
 use std::fmt::Write;

@@ -1,8 +1,8 @@
 //! Measurement by taps: the model from which the force of each tap is computed.
 
 use super::campaign::Campaign;
+use super::filler::{LibraryFiller, SAID};
 use super::finish::points as counted;
-use super::shelf::{LibraryFiller, SAID};
 use crate::TaskError;
 use crate::fit;
 use serde_json::{Value, json};

@@ -1,7 +1,7 @@
 //! Check of the measured points against a model that is fitted to what the sensors recorded.
 
 use super::campaign::by_taps;
-use super::shelf::{CHECK, LibraryFiller};
+use super::filler::{CHECK, LibraryFiller};
 use crate::TaskError;
 use crate::late::comes;
 use serde_json::{Value, json};

@@ -2,9 +2,9 @@
 //! it keeps changing.
 
 mod ask;
-mod bench;
 mod cost;
 mod known;
+mod ping_device;
 mod report;
 mod run;
 

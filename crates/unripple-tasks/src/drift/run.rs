@@ -1,7 +1,7 @@
 //! Measurement of a sheet's tension by pings.
 
-use super::bench::PingDevice;
 use super::known::Known;
+use super::ping_device::PingDevice;
 use super::report::{Report, Step};
 use super::{Ask, Cost};
 use crate::{DeviceKind, Progress, TaskError, go_on};

@@ -2,14 +2,14 @@
 
 mod ask;
 mod fill;
-mod heard;
+mod measurements;
 mod probed;
 mod report;
 mod run;
 
 pub use ask::Ask;
 pub(crate) use fill::FITTED_TO;
-pub(crate) use heard::Measurements;
+pub(crate) use measurements::Measurements;
 pub use report::Report;
 pub(crate) use run::model;
 pub use run::run;

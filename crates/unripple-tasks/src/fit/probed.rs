@@ -1,6 +1,6 @@
 //! The probed points of a library, checked against the model fitted to its actuators.
 
-use super::heard::Measurements;
+use super::measurements::Measurements;
 use crate::TaskError;
 use crate::late::comes;
 use unripple::core::{SampledResponses, Surface};

@@ -1,6 +1,6 @@
 //! Fits the model to a library, and computes its responses anywhere.
 
-use super::heard::Measurements;
+use super::measurements::Measurements;
 use super::{Ask, Report, fill, probed::Probed, report};
 use crate::numbers::accuracy;
 use crate::{Progress, Record, TaskError, go_on, grid, source};

@@ -1,8 +1,8 @@
 //! Fingerprints of recordings, by which changed recordings are evaluated again and copies of others are
 //! found.
 
-use super::asked::Wanted;
 use super::fault::Fault;
+use super::planned::Wanted;
 use crate::TaskError;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;

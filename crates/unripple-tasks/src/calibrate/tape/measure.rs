@@ -1,16 +1,16 @@
 //! Computes the library from the recordings that exist.
 
-use super::asked::Wanted;
 use super::fault::Fault;
 use super::marks::Marks;
+use super::planned::Wanted;
 use super::rig::{TapeLibraryFiller, TapeRig, bad};
 use super::wiring::{Failed, WiringResult, test_wiring};
 use super::{Outcome, TapeCalibration};
 use crate::TaskError;
+use crate::calibrate::filler::LibraryFiller;
 use crate::calibrate::finish::{begin, finish, log_run};
 use crate::calibrate::middle;
 use crate::calibrate::report::Report;
-use crate::calibrate::shelf::LibraryFiller;
 use crate::calibrate::wires::{self, WIRING};
 use serde_json::{Value, json};
 use std::collections::btree_map::Entry;

@@ -1,12 +1,12 @@
 //! Calibration by files: sweeps to be played elsewhere are written as WAV, and the recordings of them are read back.
 
 mod answer;
-mod asked;
 mod fault;
 mod library;
 mod marks;
 mod measure;
 mod plan;
+mod planned;
 mod read;
 mod rig;
 mod takes;
@@ -18,8 +18,8 @@ use super::points::{self, middle};
 use super::{Report, figure, levels, report};
 
 use crate::TaskError;
-use asked::{PlannedPoints, Wanted};
 use fault::Fault;
+use planned::{PlannedPoints, Wanted};
 use read::Reader;
 use std::path::{Path, PathBuf};
 use takes::Takes;

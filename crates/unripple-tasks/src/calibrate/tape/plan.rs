@@ -1,6 +1,6 @@
 //! The plan of a calibration by recordings: the signal to play, and the recordings to make of it.
 
-use super::asked::{PlannedPoints, Wanted};
+use super::planned::{PlannedPoints, Wanted};
 use crate::TaskError;
 use crate::calibrate::ask::Ask;
 use serde_json::{Value, json};

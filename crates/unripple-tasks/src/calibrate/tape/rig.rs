@@ -1,10 +1,10 @@
 //! A rig that plays back recordings, and storage of points with a record of the files that they were computed from.
 
-use super::asked::Wanted;
 use super::fault::Fault;
+use super::planned::Wanted;
 use super::takes::Takes;
 use crate::TaskError;
-use crate::calibrate::shelf::LibraryFiller;
+use crate::calibrate::filler::LibraryFiller;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use unripple::core::{Device, Point};

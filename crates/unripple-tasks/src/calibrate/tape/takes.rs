@@ -1,7 +1,7 @@
 //! Recordings made elsewhere: checks them, and aligns them to the start of playback.
 
-use super::asked::Wanted;
 use super::fault::Fault;
+use super::planned::Wanted;
 use super::read::{Needed, Reader};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
