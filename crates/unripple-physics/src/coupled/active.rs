@@ -18,6 +18,8 @@ const OLD: f64 = 1e-9;
 /// combinations of modes above it.
 #[derive(Debug)]
 pub(super) struct Active {
+    /// Number of single modes, which are the first coordinates; the others are combinations.
+    pub single: usize,
     /// Coefficients of the modes in each coordinate, modes x coordinates, with orthonormal columns.
     pub map: Mat<f64>,
     /// Stiffness over mass, coordinates x coordinates, in 1/s².
@@ -56,7 +58,7 @@ impl Active {
             }
         }
         let at_loads = product(at_loads, map.as_ref());
-        Self { map, stiffness, damping, at_loads }
+        Self { single: low.len(), map, stiffness, damping, at_loads }
     }
 }
 

@@ -50,6 +50,11 @@ impl Conservative {
             damping,
         })
     }
+
+    /// Whether a mode is a rigid-body motion, whose frequency is one by convention.
+    pub fn is_rigid(&self, mode: usize) -> bool {
+        self.omegas[mode] <= 1.5 * RIGID * self.omegas.last().copied().unwrap_or(0.0)
+    }
 }
 
 /// The matrix M^{-1/2} for the mass matrix M = I + Σ μ w wᵀ: the identity except for the few directions

@@ -19,6 +19,7 @@ mod conservative;
 mod coordinates;
 mod mixed;
 mod oscillations;
+mod quotient;
 mod remainder;
 mod rest;
 mod span;

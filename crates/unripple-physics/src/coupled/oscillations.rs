@@ -6,6 +6,7 @@ use super::basis::{Shape, split};
 use super::conservative::Conservative;
 use super::coordinates::Coordinates;
 use super::mixed::Mixed;
+use super::quotient;
 use super::state::{Drives, Root, proportional, roots};
 use crate::PhysicsError;
 use std::f64::consts::TAU;
@@ -103,7 +104,11 @@ impl Loaded {
                 parts.real(m, &modes, &drives);
             }
         } else {
-            for root in roots(&modes, &system.loads, &drives, dynamic_hz)? {
+            let found = match quotient::roots(&active, &modes, &system.loads, &drives) {
+                Some(found) => found,
+                None => roots(&modes, &system.loads, &drives, dynamic_hz)?,
+            };
+            for root in found {
                 let real = root.s.im == 0.0;
                 if (real && root.s.norm() >= low) || within(root.s.norm()) {
                     parts.complex(root);
