@@ -125,12 +125,23 @@ impl<'a> Ground<'a> {
 
     /// Expected contrast for each number of `actuators` like those of the surface and a window in s: by the
     /// statistics of the surface's own modes, or of its band where the modes are not known. Scaled so that
-    /// it agrees with [`Ground::contrast`] for the surface's own number of actuators and the recommended
-    /// window.
+    /// for the surface's own number of actuators it is the contrast of its modes ([`Windows::contrast`]) in
+    /// any window, or where they are not known [`Ground::contrast`] in the recommended one: statistics alone
+    /// are off by a factor of two in short windows where actuators damp the modes strongly.
     pub fn expected(&self, actuators: &[f64], window: f64) -> Vec<f64> {
-        let mut found = self.by_statistics(actuators, window);
-        found.iter_mut().for_each(|contrast| *contrast *= self.statistics_scale);
-        found
+        let scale = self.scale_of_statistics(window);
+        self.by_statistics(actuators, window).iter().map(|contrast| scale * contrast).collect()
+    }
+
+    /// Factor from the statistics to what the modes give for the surface's own number of actuators in a
+    /// window (s), or in the nearest one for which that was computed.
+    fn scale_of_statistics(&self, window: f64) -> f64 {
+        if !self.windows.is_modal() {
+            return self.statistics_scale;
+        }
+        let nearest = self.windows.nearest(window);
+        let scale = self.windows.contrast(nearest) / self.by_statistics(&[self.actuators], nearest)[0];
+        if scale.is_finite() { scale } else { self.statistics_scale }
     }
 
     /// Expected contrast as in [`Ground::expected`], but not scaled.

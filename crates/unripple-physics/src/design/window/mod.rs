@@ -248,6 +248,13 @@ impl Windows {
         Some(c0 + (c1 - c0) * (window / t0).ln() / (t1 / t0).ln())
     }
 
+    /// The window nearest to the given one (s), between the shortest and the longest for which contrast was
+    /// computed.
+    pub(super) fn nearest(&self, window: f64) -> f64 {
+        let ends = self.curve.first().zip(self.curve.last());
+        ends.map_or(window, |((shortest, _), (longest, _))| window.max(*shortest).min(*longest))
+    }
+
     fn floor(&self) -> f64 {
         self.curve.first().map_or(0.0, |(t, _)| *t)
     }
