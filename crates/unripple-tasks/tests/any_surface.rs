@@ -1,13 +1,17 @@
 //! Whatever `check` passes, no other task refuses for the file's sake: random surfaces through `check`, `design`, `modes` and a focus.
 //!
-//! UNRIPPLE_SURFACES says how many, UNRIPPLE_SEED which; an error counts as a fault unless it is memory or an accuracy that the message
-//! names, or a band without any mode, which `check` cannot know without solving for them. A focus ends with the WAV file of its drive.
+//! UNRIPPLE_SURFACES says how many, UNRIPPLE_SEED which, UNRIPPLE_FROM the first of them, for a run that goes on where another was stopped; an
+//! error counts as a fault unless it is memory or an accuracy that the message names, or a band without any mode, which `check` cannot know
+//! without solving for them. A focus ends with the WAV file of its drive.
 
 #[path = "any_surface/file.rs"]
 mod file;
 
 use file::{chance, file};
 use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 use unripple::act::{Act, Level, chosen_window, model};
 use unripple::core::{Random, Surface};
 use unripple::focus::{Options, Target};
@@ -21,6 +25,7 @@ const FEW: u64 = 12;
 const MANY: f64 = 100.0;
 
 /// What came of a surface.
+#[derive(Debug)]
 enum Outcome {
     /// `check` refused it.
     Refused,
@@ -91,31 +96,54 @@ fn number(name: &str, usual: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
+/// The surface of a number, and what came of it.
+fn outcome(seed: u64, surface: u64) -> (String, Outcome) {
+    let text = file(&mut Random::seeded(seed * 1_000_003 + surface), |random| match chance(random, 0.4) {
+        true => random.decades(MANY, 260.0),
+        false => random.decades(4.0, MANY),
+    });
+    let outcome = std::panic::catch_unwind(|| judged(&text));
+    (text, outcome.unwrap_or_else(|_| Outcome::Fault("a panic".into())))
+}
+
+/// What came of the surfaces of these numbers, as many at a time as there are processors: much of the work on one uses a single processor.
+fn outcomes(seed: u64, surfaces: Range<u64>) -> Vec<(u64, Outcome)> {
+    let (next, found) = (AtomicU64::new(surfaces.start), Mutex::new(Vec::new()));
+    let work = || {
+        loop {
+            let surface = next.fetch_add(1, Ordering::Relaxed);
+            if surface >= surfaces.end {
+                return;
+            }
+            let (text, outcome) = outcome(seed, surface);
+            match &outcome {
+                Outcome::Fault(why) => println!("surface {surface} of seed {seed}: {why}\n{text}\n"),
+                outcome => println!("surface {surface} of seed {seed}: {outcome:?}"),
+            }
+            found.lock().unwrap().push((surface, outcome));
+        }
+    };
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| (0..processors).for_each(|_| drop(scope.spawn(work))));
+    found.into_inner().unwrap()
+}
+
 #[test]
 fn what_check_passes_is_computed() {
     let (count, seed) = (number("UNRIPPLE_SURFACES", FEW), number("UNRIPPLE_SEED", 1));
+    let from = number("UNRIPPLE_FROM", 0);
     let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
     let (mut many, mut faults) = (0, Vec::new());
-    for surface in 0..count {
-        let text =
-            file(&mut Random::seeded(seed * 1_000_003 + surface), |random| match chance(random, 0.4) {
-                true => random.decades(MANY, 260.0),
-                false => random.decades(4.0, MANY),
-            });
-        let outcome = std::panic::catch_unwind(|| judged(&text));
-        let kind = match outcome.unwrap_or_else(|_| Outcome::Fault("a panic".into())) {
+    for (surface, outcome) in outcomes(seed, from..from + count) {
+        let kind = match outcome {
             Outcome::Refused => "refused by check",
             Outcome::Computed(modes) => {
                 many += u64::from(modes as f64 > MANY);
                 "computed"
             }
-            Outcome::Excused(why) => {
-                println!("surface {surface}: {why}");
-                "memory or accuracy"
-            }
+            Outcome::Excused(_) => "memory or accuracy",
             Outcome::Empty => "no mode in the band",
             Outcome::Fault(why) => {
-                println!("surface {surface} of seed {seed}: {why}\n{text}\n");
                 faults.push((surface, why));
                 "fault"
             }
