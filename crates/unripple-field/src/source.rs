@@ -44,7 +44,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// A tally of zeros for a number `points` of points.
+    /// An empty tally for a number `points` of points: all values are 0.
     pub fn zeros(points: usize) -> Self {
         Self { peak: vec![0.0; points], squares: vec![0.0; points] }
     }
@@ -71,7 +71,7 @@ pub(crate) struct Passage {
     pub instants: Vec<usize>,
     /// Filter by 1/threshold(f), for signals of the length of `taken`.
     pub weighting: Weighting,
-    /// Error allowed in the filtered displacement at any point and sample, in units of the threshold.
+    /// Largest error allowed in the displacement as weighted by the threshold of touch, at any point and sample, in units of the threshold.
     pub slack: f64,
 }
 

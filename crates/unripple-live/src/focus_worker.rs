@@ -166,7 +166,8 @@ impl FocusWorker {
     }
 
     /// Displacement that a drive causes at the first point of its focus, in m, one value per sample from the drive's
-    /// beginning. It lasts three times as long as the drive, or as long as the responses are known.
+    /// beginning. It lasts three times as long as the drive, or as long as the responses are known if
+    /// that is shorter.
     ///
     /// # Errors
     /// Those of [`Field::traces`].

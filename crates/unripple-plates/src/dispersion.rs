@@ -53,7 +53,7 @@ pub struct Medium {
 
 impl Medium {
     /// The wave properties of a sheet with its nominal thickness and tension: mass per area, tension,
-    /// bending stiffness and sides in air. Profiles and orthotropy are ignored.
+    /// bending stiffness and the number of its faces (0, 1 or 2) that touch air. Profiles and orthotropy are ignored.
     pub fn of(sheet: &Sheet) -> Self {
         Self {
             areal_density: sheet.density * sheet.thickness,

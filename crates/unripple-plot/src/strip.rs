@@ -12,7 +12,7 @@ use crate::prepared::{Margins, Prepared};
 use crate::style::{GAP, Style};
 use crate::{PlotError, ticks};
 
-/// One field of a strip or of a movie.
+/// One picture of a wave field, in a strip of pictures or in an animation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shot {
     /// The field's values, cell by cell.

@@ -27,7 +27,7 @@ pub enum Errand {
     Compute(Task, Stop),
 }
 
-/// Result of an errand.
+/// Result of work that the session had others do on threads of their own: builds, computations and tasks.
 pub enum Done {
     /// An instrument that was built, or the reason why it cannot be; [`ViewError::Stopped`] if its build was
     /// cancelled.
@@ -146,7 +146,8 @@ impl Session {
         }
     }
 
-    /// Replaces the surface by one read from the text of a surface file; pages are sent it at once.
+    /// Replaces the surface by one read from the text of a surface file, and sends the new surface to all open
+    /// pages at once.
     ///
     /// # Errors
     /// All faults of the file, as text.

@@ -55,8 +55,9 @@ pub(super) struct System {
 }
 
 impl System {
-    /// The system for `values` of the unknowns, computed from the first `count` nominal modes, with taps at
-    /// the places `taps`; `top` is the top of the band in Hz.
+    /// The coupled equations of the sheet and its loads for `values` of the unknowns, from the first `count`
+    /// modes of the nominal sheet. Its motion can be read at the places `taps`, where the sheet was tapped;
+    /// `top` is the top of the band in Hz.
     pub fn new(
         basis: &Basis,
         layout: &Layout,

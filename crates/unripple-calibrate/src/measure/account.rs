@@ -5,7 +5,7 @@
 pub struct Lost {
     /// Number of samples lost; negative if that many were recorded twice.
     pub samples: i64,
-    /// Earliest and latest time of the gap, in s of the played signal.
+    /// Bounds between which the gap lies somewhere, in s of the played signal.
     pub between_s: [f64; 2],
     /// Number of the last sweep that ended before the gap, and of the first that began after it; from 1.
     pub sweeps: [usize; 2],

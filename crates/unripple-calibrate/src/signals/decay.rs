@@ -25,7 +25,8 @@ pub struct Decay {
     pub error: f64,
     /// Mean square of the response at its strongest moment, without noise.
     pub power: f64,
-    /// Mean square of the noise in which the decay ends; for a response without noise, that of its end.
+    /// Mean square of the noise in which the decay ends; for a response without noise, the mean square of the
+    /// response at its end.
     pub noise: f64,
 }
 

@@ -9,7 +9,8 @@ use unripple_dsp::DspError;
 /// Settings for separating the harmonics of a sweep in a deconvolved recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split {
-    /// Sample at which the linear response begins, lead included: 0, or the actuator's start in a schedule.
+    /// Sample of the recording from which the linear response is taken, `lead` samples before its time 0: 0, or
+    /// the actuator's start in a schedule.
     pub start: usize,
     /// Number of samples before time 0 with which every response begins.
     pub lead: usize,

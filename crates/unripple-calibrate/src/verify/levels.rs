@@ -56,10 +56,10 @@ impl Levels {
         Self { common, scale: common.unwrap_or(scale) }
     }
 
-    /// Whether the point was probably measured at the place nearby: that place explains the responses
-    /// clearly better than the stated one, and this is not an effect of the gain. Beside a rim and near
-    /// nodes, responses at another place differ by little else than a gain. The gain of a moved probe is the
-    /// common one; a gain that differs for another reason is nearly equal at both places.
+    /// Whether the probe was probably not at the point's stated place but at a place nearby (the one that
+    /// explains the responses best). It must explain them clearly better, with a gain that is either that of
+    /// the stated place or the common gain of all points: beside a rim and near nodes another place differs
+    /// by little else than a gain, so that a wrong gain alone would look like another place.
     pub fn moved(&self, judged: &Judged) -> bool {
         let [own, nearby] = [judged.own, judged.nearby.found];
         let one = |common: f64| same(nearby.gain.abs(), common.abs());

@@ -110,9 +110,9 @@ impl Watch {
         row.iter().map(|x| sample.sign * f64::from(*x)).collect()
     }
 
-    /// The largest magnitude of a field (times x points, in units of the threshold), and those of its maxima
-    /// above `least(largest)` that are not among `known`, the largest first. Columns of the field belong to
-    /// `chosen` points.
+    /// The largest magnitude of a field (times x points, in units of the threshold), and the samples where
+    /// the field has a maximum in time, from the largest down: only those above `least` of that magnitude,
+    /// and none that is among the samples `known`. The columns of the field are those of the points `chosen`.
     pub fn peaks(
         &self,
         field: &Mat<f32>,

@@ -64,7 +64,7 @@ pub struct HandRig<D> {
 }
 
 impl<D: Device> HandRig<D> {
-    /// A real device, with the people at its surface.
+    /// A real device, with `people` who move the probe or tap the surface when they are asked to.
     pub fn new(device: D, people: People) -> Self {
         Self { device, people, place: None }
     }
