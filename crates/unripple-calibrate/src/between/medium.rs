@@ -41,8 +41,8 @@ pub(crate) struct Waves {
 
 impl Waves {
     /// Covariance models for the bins of `spectra`. `wavenumber` gives k (rad/m) at an angular frequency (rad/s);
-    /// `floor` is the smallest value (rad/m) of the nugget's largest wavenumber; `reach` is the largest distance (m)
-    /// between two places.
+    /// the nugget has waves of all wavenumbers up to a limit above k, which is never below `floor` (rad/m); `reach` is
+    /// the largest distance (m) between two places.
     ///
     /// # Errors
     /// [`CalibrateError::Range`] for a wavenumber that is negative, or 1e7 rad/m or more.

@@ -94,9 +94,9 @@ impl Basis {
         Footprint { points: transducer.footprint.points.iter().map(moved).collect() }
     }
 
-    /// Natural logarithms of the actuators' nominal gains (force per unit of drive, equal to those as
-    /// sensors): for a coil driven by a voltage with its resistance alone, for an exciter with its housing
-    /// at rest.
+    /// Natural logarithms of the actuators' nominal gains: force per unit of drive, which is also the sensor
+    /// signal per unit of velocity. Of a coil driven by a voltage only the resistance counts, not the
+    /// inductance; the housing of an exciter is taken to be at rest.
     pub fn gains(&self) -> Vec<f64> {
         let gain = |(t, _): &(Transducer, Point)| match (t.entry, t.load.as_ref().and_then(|l| l.circuit)) {
             (Entry::Voltage, Some(coil)) => t.gain / coil.resistance,

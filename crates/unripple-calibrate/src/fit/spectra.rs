@@ -39,9 +39,9 @@ pub(crate) struct Spectra {
 }
 
 impl Spectra {
-    /// Transforms from `low` to `high` (Hz), of at most `window` seconds of the signals, under a window of
-    /// at least the decay rate `alpha` (1/s). If responses between actuators were limited to a band, the
-    /// part that the limit removed is added from the model `limited`.
+    /// Transforms from `low` to `high` (Hz) of at most `window` seconds of the signals, each multiplied by an
+    /// exponential that decays at the rate `alpha` (1/s) or faster. If the measured responses between
+    /// actuators were limited to a band, `limited` is the model's response outside that band, and is added.
     pub fn of(
         measured: &Measured,
         limited: Option<&Limited>,

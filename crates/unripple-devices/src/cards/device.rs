@@ -40,8 +40,9 @@ pub struct CardOptions {
     pub block: usize,
     /// Drive, in the actuators' unit, to which a sample of 1 (full scale) corresponds.
     pub full_scale: f64,
-    /// Number of blocks of drive that are buffered ahead of the card, and at least four periods of the card:
-    /// the program may be late by that time, and all latencies are longer by it.
+    /// Number of blocks of drive that are buffered ahead of the card; more are buffered if these are shorter
+    /// than four periods of the card. The program may be late by the time that they last, and all latencies
+    /// are longer by it.
     pub lead: usize,
     /// Time, in s, after which the card counts as stalled if playback or recording has made no progress.
     pub patience: f64,

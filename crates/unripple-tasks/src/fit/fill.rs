@@ -16,9 +16,9 @@ const KEPT: [&str; 2] = ["scale", "dead"];
 /// Key in the provenance of a library's plan: the library that the model was fitted to.
 pub const FITTED_TO: &str = "fitted to";
 
-/// Writes a library of the fitted model's responses at `points`, as long as the probed responses and
-/// corrected by those nearby. Responses of dead actuators are zero. Doubts are written first, so that a
-/// library filled in part carries them too.
+/// Writes a library of the fitted model's responses at `points`. They have the length of the probed
+/// responses, and are corrected by the probed responses nearby; those of dead actuators are zero. Doubts are
+/// written first, so that a library filled in part carries them too.
 pub fn fill(
     (record, folder): (&Record, &Path),
     source: &Library,

@@ -6,8 +6,8 @@ use crate::field::Field;
 use crate::physics::{Transducer, transducers};
 
 /// Mean mechanical power (W) that the actuators of a surface give to the sheet over the last `seconds` of
-/// the field's drive: force times velocity under each actuator, summed. Fingers and the masses of
-/// actuators, which absorb no power, count as parts of the sheet.
+/// the field's drive: force times velocity under each actuator, summed. Power that fingers absorb
+/// comes from the sheet and is not subtracted; masses of actuators absorb none.
 ///
 /// `None` for sampled responses, whose motion under the actuators is not known; and where an actuator is a coil on a voltage or an exciter.
 /// Their force depends on the velocity under them, of which the modes of an evaluation have only a part: modes far above yield at the contact
