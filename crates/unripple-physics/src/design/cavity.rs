@@ -2,10 +2,10 @@
 //! modal overlap, decay, window.
 
 use super::closed::exposure;
+use super::waves::wave_decay_rate;
 use crate::Medium;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{FOCAL_RADIUS, Outline, Shape, Surface};
-use unripple_plates::decay_rate;
 
 /// Number of intervals that a band is divided into, evenly in wavenumber, for integrals over the band.
 /// With twice this value, the midpoint rule errs a quarter as much.
@@ -20,7 +20,7 @@ const BINS: usize = 400;
 ///   Gaussian random waves;
 /// - before the first reflections return, modes act as if they were evenly spaced: a mode and its neighbours together leak
 ///   according to n, and the mode itself must not be counted twice;
-/// - each frequency has its own decay time.
+/// - each frequency has its own decay time, radiation of sound included.
 ///
 /// The band is divided into bins with dM modes each, dℓ of them as counted at the target, and n modes per hertz. With
 /// I(T) = ∫_0^T e^{-2t/τ}/2 dt and V = ∫_0^T e^{-4t/τ}/8 dt,
@@ -57,7 +57,7 @@ struct Bin {
     local: f64,
     /// Modes per hertz.
     density: f64,
-    /// Decay rate of the amplitude, in 1/s.
+    /// Decay rate of the amplitude, in 1/s, by damping and by radiation of sound.
     sigma: f64,
     /// Time of a return trip along the mean chord, in s.
     trip: f64,
@@ -121,7 +121,7 @@ impl Cavity {
                     modes: per_wavenumber * width,
                     local: area * k * width / TAU,
                     density: per_wavenumber * TAU / group,
-                    sigma: decay_rate(&surface.sheet.decay, omega, medium.bending_share(k)),
+                    sigma: wave_decay_rate(&surface.sheet, &medium, k, omega),
                     trip: TAU * area / (perimeter * group),
                 }
             })
@@ -170,7 +170,7 @@ impl Cavity {
         self.modes().powi(2) / self.sum(|bin| bin.modes * bin.density)
     }
 
-    /// Decay time of the amplitude, in s: the reciprocal of the mean decay rate of the modes.
+    /// Decay time of the amplitude, in s, by damping and by radiation of sound: the reciprocal of the mean decay rate of the modes.
     pub fn decay_time(&self) -> f64 {
         self.modes() / self.sum(|bin| bin.modes * bin.sigma)
     }

@@ -51,7 +51,7 @@ pub struct Design {
     /// Heisenberg time at the top of the band, in seconds: the number of modes per hertz there by Weyl's
     /// law.
     pub heisenberg_time_top_s: f64,
-    /// Decay time of the amplitude, averaged over modes, in seconds.
+    /// Decay time of the amplitude, in seconds: the reciprocal of the mean decay rate of the modes, by damping and by radiation of sound.
     pub decay_time_s: f64,
     /// Recommended window: the shortest that reaches nine tenths of the largest contrast ([`Windows`](super::Windows)), in seconds.
     pub window_recommended_s: f64,

@@ -1,10 +1,12 @@
-//! Limits of the model on a surface: how thick the sheet is for thin-plate theory, and which contacts are wide for its shortest waves.
+//! Limits of the model on a surface: how thick the sheet is for thin-plate theory, which contacts are wide for its shortest waves, and
+//! radiation of sound that is left out.
 
 use super::Note;
 use super::digits::rounded;
 use crate::Medium;
 use std::f64::consts::TAU;
-use unripple_core::{Actuator, ActuatorKind, Patch, Sheet, Surface};
+use unripple_core::{Actuator, ActuatorKind, Air, Patch, Sheet, Surface};
+use unripple_plates::{AIR_CELERITY, decay_rate};
 
 /// Ratio of thickness to shortest wavelength above which a note states the error of thin-plate theory: at
 /// this ratio, its frequencies are 2 % too high. With twice this value, errors up to 7 % would not be
@@ -26,7 +28,7 @@ const WIDE: f64 = 0.5;
 ///
 /// Thin-plate (Kirchhoff) theory neglects shear and rotary inertia; a note gives its error at the top of the band by Mindlin's theory
 /// (*J. Appl. Mech.* 18, 31, 1951) where the sheet is thicker than a twentieth of the shortest wavelength. Another names the patches and
-/// contacts that are wider than half of that wavelength.
+/// contacts that are wider than half of that wavelength, a third the radiation of sound where air is left out.
 ///
 /// ```
 /// use unripple_physics::design::{limits, papers_surface};
@@ -37,7 +39,7 @@ const WIDE: f64 = 0.5;
 /// assert!(limits(&thick)[0].text.contains("Mindlin"));
 /// ```
 pub fn limits(surface: &Surface) -> Vec<Note> {
-    [thick(surface), wide(surface)].into_iter().flatten().collect()
+    [thick(surface), wide(surface), silent(surface)].into_iter().flatten().collect()
 }
 
 /// For a wave of wavenumber `k` (rad/m) in a sheet of one material, without air: the ratio of its frequency
@@ -109,6 +111,33 @@ fn wide(surface: &Surface) -> Option<Note> {
              masses and moments are integrated over the area, as that of a contact that does not stiffen the sheet",
             rounded(1e3 * widest, 3),
             rounded(1e3 * lambda, 3)
+        ),
+    })
+}
+
+/// A note on a sheet without air in a band where it would radiate sound: its waves are faster than sound there.
+fn silent(surface: &Surface) -> Option<Note> {
+    let (sheet, top) = (&surface.sheet, surface.emission.band[1]);
+    let medium = Medium::of(sheet);
+    let k = medium.wavenumber(TAU * top);
+    if sheet.air != Air::None || medium.phase_celerity(k) <= AIR_CELERITY {
+        return None;
+    }
+    let ms = |rate: f64| rounded(1e3 / rate, 2);
+    let radiated = |air: Air| ms(medium.with_air(air).radiation(k));
+    let from = match medium.coincidence_hz() {
+        Some(hz) => format!("above {hz:.0} Hz"),
+        None => "at every frequency".into(),
+    };
+    Some(Note {
+        topic: "radiation".into(),
+        text: format!(
+            "`air` is \"none\", though {from} waves on the sheet are faster than sound in air and radiate sound: the amplitude of waves of \
+             {top} Hz would fall to 1/e by radiation alone in {} ms with air on one side, in {} ms on both, and does by the damping of the \
+             sheet in {} ms. Nothing computed here includes radiation; with `air` \"one-side\" or \"both-sides\" all of it does",
+            radiated(Air::OneSide),
+            radiated(Air::BothSides),
+            ms(decay_rate(&sheet.decay, TAU * top, medium.bending_share(k)))
         ),
     })
 }

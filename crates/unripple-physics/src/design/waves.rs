@@ -3,7 +3,7 @@
 use super::weyl::Weyl;
 use crate::Medium;
 use std::f64::consts::TAU;
-use unripple_core::Surface;
+use unripple_core::{Sheet, Surface};
 use unripple_plates::decay_rate;
 
 /// A wave of one frequency in the band: one row of the dispersion table.
@@ -21,7 +21,7 @@ pub struct Wave {
     pub modes_per_hz: f64,
     /// Mean spacing of modes 1/(dM/df), in Hz; `None` where Weyl's law gives no modes.
     pub mode_spacing_hz: Option<f64>,
-    /// Decay time of the amplitude, in seconds.
+    /// Decay time of the amplitude, in seconds, by damping and by radiation of sound.
     pub decay_time_s: f64,
 }
 
@@ -50,6 +50,12 @@ fn wave(surface: &Surface, law: &Weyl, hz: f64) -> Wave {
         group_celerity_m_s: group,
         modes_per_hz: density.max(0.0),
         mode_spacing_hz: (density > 0.0).then(|| 1.0 / density),
-        decay_time_s: 1.0 / decay_rate(&surface.sheet.decay, TAU * hz, medium.bending_share(k)),
+        decay_time_s: 1.0 / wave_decay_rate(&surface.sheet, &medium, k, TAU * hz),
     }
+}
+
+/// Decay rate of the amplitude, in 1/s, of a wave of wavenumber `k` (rad/m) and angular frequency `omega` (rad/s): by the damping of
+/// the sheet and, where it is faster than sound in the air beside it, by radiation.
+pub(super) fn wave_decay_rate(sheet: &Sheet, medium: &Medium, k: f64, omega: f64) -> f64 {
+    decay_rate(&sheet.decay, omega, medium.bending_share(k)) + medium.radiation(k)
 }

@@ -112,7 +112,8 @@ fn thick_sheets_and_wide_contacts_are_named() {
         // The band's top has that wavelength.
         surface.emission.band = [100.0, Medium::of(&surface.sheet).omega(k) / TAU];
         surface.emission.rate = 4.0 * surface.emission.band[1];
-        let notes = limits(&surface);
+        // That such waves radiate is another note.
+        let notes: Vec<_> = limits(&surface).into_iter().filter(|note| note.topic != "radiation").collect();
         assert_eq!(notes.len(), usize::from(share > 0.0501), "{notes:?}");
         assert!(notes.iter().all(|note| note.text.contains("Mindlin") && note.text.contains(" % above")));
     }

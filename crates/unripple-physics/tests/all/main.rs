@@ -6,6 +6,7 @@ mod coupled_common;
 mod coupled_convergence;
 mod coupled_oracle;
 mod coupled_property;
+mod design_air;
 mod design_notes;
 mod design_oracle;
 #[path = "../exciter_common/mod.rs"]
