@@ -118,6 +118,7 @@ fn outcomes(seed: u64, surfaces: Range<u64>) -> Vec<(u64, Outcome)> {
             let (text, outcome) = outcome(seed, surface);
             match &outcome {
                 Outcome::Fault(why) => println!("surface {surface} of seed {seed}: {why}\n{text}\n"),
+                Outcome::Excused(why) => println!("surface {surface} of seed {seed}: {why}"),
                 outcome => println!("surface {surface} of seed {seed}: {outcome:?}"),
             }
             found.lock().unwrap().push((surface, outcome));
