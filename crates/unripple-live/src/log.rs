@@ -91,7 +91,8 @@ impl Log {
         self.playing.remove(&voice);
     }
 
-    /// Removes drives that are played once, after reports were lost: whether they began is unknown.
+    /// Removes all drives that do not repeat. To be called when reports were lost, since it is then unknown whether these
+    /// drives began.
     pub fn miss(&mut self) {
         self.playing.retain(|_, playing| playing.repeats);
     }

@@ -47,8 +47,9 @@ impl Instants {
         (2 * self.reach + 1) as f64
     }
 
-    /// Values of `signals`, `[channel][sample]`, at the instants, as instants x channels. Means are multiplied by the square
-    /// root of their number of samples, so that white noise keeps its standard deviation.
+    /// Values of `signals`, `[channel][sample]`, at the instants, as instants x channels: at the first instants single
+    /// samples, at later ones means over neighbouring samples. A mean is multiplied by the square root of its number of
+    /// samples, so that white noise keeps its standard deviation.
     pub fn look(&self, signals: &[Vec<f64>]) -> Mat<f64> {
         Mat::from_fn(self.at.len(), signals.len(), |n, c| match n < self.single {
             true => signals[c][self.at[n]],

@@ -113,8 +113,8 @@ pub struct PointVerdict {
     /// Share of the point's responses, as amplitude, that the model at the stated place does not explain,
     /// whatever the gain.
     pub unexplained: f64,
-    /// Gain of the point's responses relative to that of most points (to the median of all if they
-    /// disagree), negative if reversed.
+    /// Gain of the point's responses relative to the gain on which most points agree, or to the median gain
+    /// if there is none; negative if reversed.
     pub gain: f64,
     /// Delay of the point's responses relative to the delay common to all points, in s.
     pub late: f64,

@@ -27,7 +27,7 @@ fn failed(error: DevicesError) -> TaskError {
     }
 }
 
-/// Opens the device that a request names; `people` are those at the surface of a real device.
+/// Opens the device that a request names; on a real device `people` are asked to move the probe or to tap.
 pub fn open(options: &DeviceAsk, surface: &Surface, people: People) -> Result<Opened, TaskError> {
     open_under(options, surface, people, Vec::new())
 }

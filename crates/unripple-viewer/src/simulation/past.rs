@@ -47,7 +47,8 @@ impl Past<'_> {
         Some(if self.velocity { velocity } else { displacement })
     }
 
-    /// Number of stored states within `seconds` up to the one at index `back`, itself included.
+    /// Number of stored states in the time span of `seconds` that ends with the state at index `back`, that state
+    /// included.
     pub fn span(&self, back: usize, seconds: f64) -> usize {
         let states = (seconds * self.rate / self.history.stride() as f64) as usize;
         states.min(self.history.len() - back)
