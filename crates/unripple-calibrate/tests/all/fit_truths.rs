@@ -3,8 +3,9 @@
 use crate::heard_bench;
 
 use heard_bench::*;
-use unripple_calibrate::{Estimate, FitOptions, Fitted, Verdict, fit};
-use unripple_core::{Decay, Point, Random, Surface};
+use unripple_calibrate::{Estimate, FitOptions, Fitted, Measured, Verdict, fit};
+use unripple_core::{Decay, Edge, Edges, Point, Random, Responses, Surface};
+use unripple_physics::{ResponseOptions, responses, sample};
 
 /// Top of the band, where a fit takes seconds.
 const TOP: f64 = 800.0;
@@ -62,6 +63,7 @@ fn intervals_hold_and_no_wrong_answer_is_good() {
         let fitted =
             fit(&believed, &measured, &FitOptions { profile: 1, strays: 0, ..FitOptions::default() });
         let fitted = fitted.unwrap();
+        stay_on(&believed, &fitted);
         let far = |(at, load): (&unripple_core::Actuator, &unripple_calibrate::FittedLoad)| {
             Point::new(load.at[0].value, load.at[1].value).distance(at.at)
         };
@@ -101,4 +103,50 @@ fn intervals_hold_and_no_wrong_answer_is_good() {
     assert!(10 * doubtful <= count, "{doubtful} doubtful");
     let share = held as f64 / all as f64;
     assert!(share > if count < 20 { 0.85 } else { 0.90 } && (count < 20 || share < 0.99), "{share}");
+}
+
+/// Fitted actuators are on the sheet.
+fn stay_on(surface: &Surface, fitted: &Fitted) {
+    for (actuator, load) in surface.actuators.iter().zip(&fitted.actuators) {
+        let at = Point::new(load.at[0].value, load.at[1].value);
+        assert!(surface.outline.contains(at), "{} at {at}", actuator.name);
+    }
+}
+
+/// A pane on springs with actuators on its very rim, which moves; and the same pane as it is believed to be, with them 1 mm inside.
+fn at_the_rim() -> (Surface, Surface) {
+    let mut truth = plate();
+    truth.outline.edges = Edges::All(Edge::Elastic { lift: 1e5, tilt: 0.0 });
+    truth.emission.band[1] = 1500.0;
+    let places =
+        [(0., 24.), (200., 44.), (0., 73.), (200., 100.), (58., 0.), (108., 120.), (144., 0.), (180., 120.)];
+    let mut believed = truth.clone();
+    for (n, (x, y)) in places.into_iter().enumerate() {
+        truth.actuators[n].at = Point::from_mm(x, y);
+        believed.actuators[n].at = Point::from_mm(x.clamp(1.0, 199.0), y.clamp(1.0, 119.0));
+    }
+    (truth, believed)
+}
+
+/// Where the truth is on the rim itself, a step of the fit, or noise alone, would put an actuator beyond it.
+#[test]
+fn fitted_actuators_stay_on_the_sheet() {
+    let (truth, believed) = at_the_rim();
+    let above = ResponseOptions { max_hz: Some(2200.0), ..ResponseOptions::default() };
+    let Responses::Modal(modal) = responses(&truth, &above).unwrap() else { panic!("not modal") };
+    let places: Vec<Point> = truth.actuators.iter().map(|actuator| actuator.at).collect();
+    let heard = sample(&modal, &places, 9600);
+    // Responses of an actuator to itself have an rms of 90 m/s/(N s): noise at -60 dB.
+    let (noise, mut random) = (0.09, Random::seeded(11));
+    let signal = |n: usize| -> Vec<f64> {
+        heard.response(n / 8, n % 8).iter().map(|v| f64::from(*v) + noise * random.normal()).collect()
+    };
+    let measured = Measured::pairs(truth.emission.rate, (0..64).map(signal).collect(), noise);
+    let options = FitOptions { profile: 0, strays: 0, ..FitOptions::default() };
+    let fitted = fit(&believed, &measured, &options).unwrap();
+    stay_on(&believed, &fitted);
+    for (actuator, load) in truth.actuators.iter().zip(&fitted.actuators) {
+        let far = Point::new(load.at[0].value, load.at[1].value).distance(actuator.at);
+        assert!(far < 0.5e-3, "{}: {far}", actuator.name);
+    }
 }

@@ -3,6 +3,7 @@
 use crate::common;
 
 use common::{Scratch, json, number, refused};
+use serde_json::Value;
 
 const FILM: &str = "format = 1\nname = \"A film\"\n[outline]\nrectangle_mm = [150, 150]\n[sheet]\nmaterial = \"BoPET\"\n\
                     thickness_mm = 0.125\ntension_n_per_m = 200\ndecay_time_ms = 70\n[drive]\nband_hz = [0, 700]\n\
@@ -64,12 +65,40 @@ fn figures_are_as_wide_as_columns_of_a_page() {
     }
 }
 
+/// A library of the film at points 15 mm apart, and what the command that made it reported.
+fn library(scratch: &Scratch) -> (String, Value) {
+    let (file, library) = (scratch.file("film.toml", FILM), scratch.join("library"));
+    let made = json(&["respond", &file, "--grid-mm", "15", "--length-ms", "40", "-o", &library]);
+    (library, made)
+}
+
+/// Linear theory is checked by what a library knows, and what it does not know is said.
+#[test]
+fn libraries_have_the_notes_on_linear_theory() {
+    let scratch = Scratch::new("library-notes");
+    let (library, _) = library(&scratch);
+    let out = scratch.join("out");
+    let focus = ["focus", &library, "--at", "60,90", "--window-ms", "20", "--no-figures", "-o", &out];
+    for (peak_um, thick) in [("20", false), ("2000", true)] {
+        let report = json(&[&focus[..], &["--peak-um", peak_um]].concat());
+        let notes = report["notes"].as_array().unwrap().iter();
+        let of_theory: Vec<&str> = notes
+            .filter(|note| note["topic"] == "linear theory")
+            .map(|note| note["text"].as_str().unwrap())
+            .collect();
+        let says = |what: &str| of_theory.iter().any(|text| text.contains(what));
+        assert!(says("are not known between the points of a library"), "{of_theory:?}");
+        assert_eq!(says("is above the sheet's thickness of 125 µm"), thick, "{peak_um}: {of_theory:?}");
+        let page = text(&out, "report.md");
+        assert!(of_theory.iter().all(|said| page.contains(said)), "{page}");
+    }
+}
+
 #[test]
 fn a_library_is_drawn_at_its_points() {
     let scratch = Scratch::new("scatter");
-    let (file, library, out) =
-        (scratch.file("film.toml", FILM), scratch.join("library"), scratch.join("out"));
-    let made = json(&["respond", &file, "--grid-mm", "15", "--length-ms", "40", "-o", &library]);
+    let (library, made) = library(&scratch);
+    let out = scratch.join("out");
     let points = number(&made, "/points") as usize;
     let report = json(&["focus", &library, "--at", "60,90", "--window-ms", "20", "-o", &out]);
     assert_eq!(report["taken_on"], "library");
