@@ -1,8 +1,9 @@
 //! Whatever `check` passes, no other task refuses for the file's sake: random surfaces through `check`, `design`, `modes` and a focus.
 //!
-//! UNRIPPLE_SURFACES says how many, UNRIPPLE_SEED which, UNRIPPLE_FROM the first of them, for a run that goes on where another was stopped; an
-//! error counts as a fault unless it is memory or an accuracy that the message names, or a band without any mode, which `check` cannot know
-//! without solving for them. A focus ends with the WAV file of its drive.
+//! UNRIPPLE_SURFACES says how many, UNRIPPLE_SEED which, UNRIPPLE_FROM the first of them, for a run that goes on where another was stopped;
+//! UNRIPPLE_FILES is a folder for their files, to look at one of them again. An error counts as a fault unless it is memory or an accuracy
+//! that the message names, or a band without any mode, which `check` cannot know without solving for them. A focus ends with the WAV file
+//! of its drive.
 
 #[path = "any_surface/file.rs"]
 mod file;
@@ -102,6 +103,10 @@ fn outcome(seed: u64, surface: u64) -> (String, Outcome) {
         true => random.decades(MANY, 260.0),
         false => random.decades(4.0, MANY),
     });
+    if let Some(folder) = std::env::var_os("UNRIPPLE_FILES") {
+        let path = std::path::Path::new(&folder).join(format!("{surface}.toml"));
+        std::fs::write(path, &text).expect("a folder for the files of surfaces");
+    }
     let outcome = std::panic::catch_unwind(|| judged(&text));
     (text, outcome.unwrap_or_else(|_| Outcome::Fault("a panic".into())))
 }
