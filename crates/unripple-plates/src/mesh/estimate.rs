@@ -36,7 +36,9 @@ impl Mesh {
         let at = |i: usize| cut.vertices[i].at;
         let region = Region::new(cut.edges.iter().map(|(ends, _)| ends.map(at)).collect());
         let all: Vec<Point> = cut.vertices.iter().map(|v| v.at).collect();
-        let within = density(&region, &cut.field, Bounds::around(&all, 0.0), DEEPEST);
+        let bounds = Bounds::around(&all, 0.0);
+        let size = cut.field.at(bounds.centre());
+        let within = density(&region, &cut.field, (bounds, size), DEEPEST);
         // Vertices on rims have only half the triangles of those inside.
         Ok((within + 0.5 * all.len() as f64) as usize)
     }
@@ -73,14 +75,15 @@ fn rough(rims: &Rims, area: f64, sizing: &Sizing) -> f64 {
     inside + rims + layer + near.sum::<f64>()
 }
 
-/// The integral of 1/(h² √¾) over the part of a box that lies within the region, with h the desired edge length.
-fn density(region: &Region, field: &Field, bounds: Bounds, depth: u32) -> f64 {
+/// The integral of 1/(h² √¾) over the part of a box that lies within the region, with h the desired edge length, which is `size` in the
+/// middle of the box.
+fn density(region: &Region, field: &Field, (bounds, size): (Bounds, f64), depth: u32) -> f64 {
     let (width, height) = (bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y);
     let (centre, longer) = (bounds.centre(), width.max(height));
-    let size = field.at(centre);
     let whole = width * height / (size * size * 0.75_f64.sqrt());
     let cut = region.cuts(&bounds);
-    let settled = if cut { longer < 0.5 * size } else { longer < 0.5 * size || field.is_even(&bounds) };
+    let small = longer < 0.5 * size;
+    let settled = small || (!cut && field.is_common(size) && field.is_even(&bounds));
     if settled || depth == 0 || (!cut && !region.contains(centre)) {
         return if region.contains(centre) { whole } else { 0.0 };
     }
@@ -96,5 +99,9 @@ fn density(region: &Region, field: &Field, bounds: Bounds, depth: u32) -> f64 {
             Bounds { low: Point::new(low.x, centre.y), high },
         ]
     };
-    halves.into_iter().map(|half| density(region, field, half, depth - 1)).sum()
+    let half = |half: Bounds| {
+        let size = field.near(half.centre(), size, 0.25 * longer);
+        density(region, field, (half, size), depth - 1)
+    };
+    halves.into_iter().map(half).sum()
 }

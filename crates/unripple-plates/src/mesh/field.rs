@@ -43,13 +43,29 @@ impl Field {
 
     /// The desired edge length at a point (m), in metres.
     pub(super) fn at(&self, p: Point) -> f64 {
-        let mut least = self.size;
+        self.below(p, self.size)
+    }
+
+    /// The desired edge length (m) at a place at a distance `apart` (m) from another, where it is `there` (m). The search begins with the
+    /// most that it may have grown from there, which spares it most of the sources.
+    pub(super) fn near(&self, p: Point, there: f64, apart: f64) -> f64 {
+        self.below(p, self.size.min(there + self.growth * apart))
+    }
+
+    /// The desired edge length (m) at a point, if it is at most `bound`, else `bound`.
+    fn below(&self, p: Point, bound: f64) -> f64 {
+        let mut least = bound;
         let open = |least: &f64, node: &Node| node.least + self.growth * node.bounds.distance(p) < *least;
         self.tree.search(&mut least, open, |least, i| {
             let s = &self.sources[i];
             *least = least.min(s.edge + self.growth * (s.at.distance(p) - s.reach).max(0.0));
         });
         least
+    }
+
+    /// Whether an edge length is the common one, which no source shortens.
+    pub(super) fn is_common(&self, edge: f64) -> bool {
+        edge == self.size
     }
 
     /// Whether the desired edge length is the common length everywhere in a box.

@@ -72,12 +72,15 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
         levels.push(modes(surface, &fabric, bounds, plan, &mesh(1 + levels.len()))?.level());
     }
     let third = coarse.coarser(1.0 / rates::finer(&levels, bounds.accuracy));
-    let mut plan = if guard(surface, bounds, &third).is_ok() { third } else { plan };
+    let mut plan = if cost(surface, &third)?.1 <= MEMORY { third } else { plan };
     let mut best = Best::up_to(bounds.most);
     for _ in 0..ROUNDS {
+        // Meshes before were solved: what is out of reach is the accuracy.
+        if best.is_any() && cost(surface, &plan)?.1 > MEMORY {
+            break;
+        }
         let fine = match modes(surface, &fabric, bounds, &plan, &mesh(1 + levels.len())) {
-            // Meshes before were solved: what is out of reach is the accuracy.
-            Err(PhysicsError::TooLarge { .. } | PhysicsError::Solver { .. }) if best.is_any() => break,
+            Err(PhysicsError::Solver { .. }) if best.is_any() => break,
             fine => fine?,
         };
         levels.push(fine.level());
@@ -102,22 +105,18 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
 /// # Errors
 /// [`PhysicsError::TooLarge`] for the accuracy aimed at where there is none, so that nothing is solved in vain.
 fn affordable(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<Plan, PhysicsError> {
-    let with = |accuracy: f64| {
-        let plan = Plan::new(surface, fabric, &Bounds { accuracy, ..*bounds })?;
-        guard(surface, bounds, &plan).map(|()| plan)
-    };
-    let refused = match with(bounds.accuracy) {
-        Err(refused @ PhysicsError::TooLarge { .. }) => refused,
-        planned => return planned,
-    };
-    let mut accuracy = RELAXED * bounds.accuracy;
-    while accuracy <= bounds.most {
-        match with(accuracy) {
-            Err(PhysicsError::TooLarge { .. }) => accuracy *= RELAXED,
-            planned => return planned,
+    let with = |accuracy: f64| Plan::new(surface, fabric, &Bounds { accuracy, ..*bounds });
+    let first = with(bounds.accuracy)?;
+    let mut plan = first.clone();
+    let mut accuracy = bounds.accuracy;
+    while cost(surface, &plan)?.1 > MEMORY {
+        accuracy *= RELAXED;
+        if accuracy > bounds.most {
+            return Err(too_large(surface, bounds, &first)?);
         }
+        plan = with(accuracy)?;
     }
-    Err(refused)
+    Ok(plan)
 }
 
 /// Meshes a sheet as planned, assembles its matrices and solves for the modes below the top.
@@ -213,22 +212,27 @@ fn sign(coefficients: ColRef<'_, f64>) -> f64 {
     coefficients.iter().find(|c| c.abs() >= 0.5 * largest).map_or(1.0, |c| c.signum())
 }
 
+/// Approximate number of unknowns of a plan, and the memory (bytes) that a solution takes.
+fn cost(surface: &Surface, plan: &Plan) -> Result<(usize, f64), PhysicsError> {
+    let unknowns = plan.unknowns(&surface.outline)?;
+    Ok((unknowns, spectrum::estimate_bytes(unknowns, plan.modes())))
+}
+
 /// Refuses a problem that would not fit in memory, before any is allocated.
 fn guard(surface: &Surface, bounds: &Bounds, plan: &Plan) -> Result<(), PhysicsError> {
-    let cost = |plan: &Plan| {
-        let unknowns = plan.unknowns(&surface.outline)?;
-        Ok::<_, PhysicsError>((unknowns, spectrum::estimate_bytes(unknowns, plan.modes())))
-    };
-    let (unknowns, needed) = cost(plan)?;
-    if needed <= MEMORY {
-        return Ok(());
-    }
+    if cost(surface, plan)?.1 > MEMORY { Err(too_large(surface, bounds, plan)?) } else { Ok(()) }
+}
+
+/// The error for a plan that would not fit in memory, with the top frequency up to which it would. It takes some forty estimates of the
+/// cost, which on thin films with boundary layers are a tenth of a second each.
+fn too_large(surface: &Surface, bounds: &Bounds, plan: &Plan) -> Result<PhysicsError, PhysicsError> {
+    let (unknowns, needed) = cost(surface, plan)?;
     let (mut fits, mut fails) = (0.0, 1.0);
     for _ in 0..40 {
         let share = 0.5 * (fits + fails);
-        if cost(&plan.lower(share))?.1 <= MEMORY { fits = share } else { fails = share }
+        if cost(surface, &plan.lower(share))?.1 <= MEMORY { fits = share } else { fails = share }
     }
-    Err(PhysicsError::TooLarge {
+    Ok(PhysicsError::TooLarge {
         max_hz: bounds.max_hz,
         unknowns,
         needed_gib: needed / GIB,
