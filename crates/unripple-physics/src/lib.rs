@@ -38,13 +38,15 @@ pub mod design;
 mod loads;
 mod responses;
 pub mod stepper;
+mod surface_modes;
 
 pub use actuators::{Entry, Sensor, Transducer, sensed, sensors, transducers};
 pub use coupled::{Loaded, Oscillations};
 pub use design::{Design, design};
 pub use loads::{Circuit, Footprint, Housing, Load};
 pub use responses::{
-    ResponseOptions, loaded_modes, response_modes, responses, responses_on, sample, sampled_hz, stepped_hz,
+    ResponseOptions, response_modes, responses, responses_on, sample, sampled_hz, stepped_hz,
 };
 pub use stepper::{Channel, Plant, StepperOptions, VirtualSurface};
+pub use surface_modes::SurfaceModes;
 pub use unripple_plates::{AIR_CELERITY, AIR_DENSITY, Accuracy, Medium, Modes, PhysicsError};

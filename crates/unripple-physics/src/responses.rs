@@ -104,55 +104,6 @@ pub fn responses_on(
     Asked::of(surface, options)?.responses(surface, modes)
 }
 
-/// The poles of the modes of the sheet with its actuators (their masses, springs, coils and electrical
-/// loads), up to `top_hz` (Hz), one per mode, in order of ascending natural frequency. `None` if no
-/// actuator loads the sheet, whose modes are then those of [`Modes::solve`].
-///
-/// The frequency of a pole is |s|/2π of its complex frequency s, its decay rate -Re s. Frequencies of the sheet alone have the relative
-/// accuracy `accuracy`. The compliance of its modes above one and a half times `top_hz` enters as that of an infinite sheet.
-///
-/// # Errors
-/// Those of [`responses`]; [`PhysicsError::Range`] if `top_hz` is not above 0.
-///
-/// ```
-/// # use unripple_core::{ActuatorKind, CoilDrive};
-/// use unripple_physics::{design::papers_surface, loaded_modes};
-///
-/// let mut film = papers_surface();
-/// assert!(loaded_modes(&film, 400.0, 1e-4)?.is_none(), "ideal forces are no load");
-/// // Eight magnets of 0.1 g: the first mode falls.
-/// for actuator in &mut film.actuators {
-///     actuator.contact_radius = 2e-3;
-///     actuator.kind = ActuatorKind::MovingMagnet {
-///         force_constant: 0.2,
-///         resistance: 8.0,
-///         inductance: 0.0,
-///         moving_mass: 1e-4,
-///         driven_by: CoilDrive::Current,
-///     };
-/// }
-/// let modes = loaded_modes(&film, 400.0, 1e-4)?.unwrap_or_default();
-/// assert!(modes[0].omega < 0.999 * unripple_physics::Modes::solve(&film, 400.0, 1e-4)?.poles()[0].omega);
-/// # Ok::<(), unripple_physics::PhysicsError>(())
-/// ```
-pub fn loaded_modes(
-    surface: &Surface,
-    top_hz: f64,
-    accuracy: impl Into<Accuracy>,
-) -> Result<Option<Vec<Pole>>, PhysicsError> {
-    let mut below = surface.clone();
-    below.emission.band = [0.0, top_hz];
-    // Nothing is sampled: the rate is only to be no reason to refuse.
-    below.emission.rate = below.emission.rate.max(3.0 * top_hz);
-    let accuracy = accuracy.into();
-    let asked = Asked::of(&below, &ResponseOptions { accuracy, ..ResponseOptions::default() })?;
-    if asked.bare() {
-        return Ok(None);
-    }
-    let modes = Arc::new(asked.modes(&below)?);
-    Ok(Some(asked.coupled(&below, modes)?.modes))
-}
-
 /// Frequency (Hz) up to which a time-domain simulation ([`stepper`](crate::stepper)) needs modes to agree
 /// with [`responses`] up to `max_hz`. With loads on the sheet it is 1.5 times `max_hz`, since higher modes
 /// add compliance at the loads, but at most 0.45 of the sample rate (and at least `max_hz`).
@@ -176,7 +127,7 @@ pub fn sampled_hz(surface: &Surface, hz: f64, least: f64) -> f64 {
 }
 
 /// A request for responses, after its options have been checked.
-struct Asked {
+pub(crate) struct Asked {
     transducers: Vec<Transducer>,
     fingers: Vec<Load>,
     max_hz: f64,
@@ -186,7 +137,7 @@ struct Asked {
 
 impl Asked {
     /// Checks surface and options, and prepares the transducers and the loads of fingers.
-    fn of(surface: &Surface, options: &ResponseOptions) -> Result<Self, PhysicsError> {
+    pub(crate) fn of(surface: &Surface, options: &ResponseOptions) -> Result<Self, PhysicsError> {
         let emission = &surface.emission;
         let [low, high] = emission.band;
         require("sample rate in Hz", emission.rate > 0.0, "a positive number", emission.rate)?;
@@ -207,17 +158,18 @@ impl Asked {
     }
 
     /// Whether there are no loads on the sheet.
-    fn bare(&self) -> bool {
+    pub(crate) fn bare(&self) -> bool {
         !self.transducers.iter().filter_map(|t| t.load.as_ref()).chain(&self.fingers).any(Load::acts)
     }
 
-    fn modes(&self, surface: &Surface) -> Result<Modes, PhysicsError> {
+    /// The modes of the sheet without loads that are needed.
+    pub(crate) fn modes(&self, surface: &Surface) -> Result<Modes, PhysicsError> {
         let top = if self.bare() { self.max_hz } else { self.reach * self.max_hz };
         Modes::solve(surface, top, self.accuracy)
     }
 
     /// The oscillations of the sheet coupled to all loads, from the bottom of the band to `max_hz`.
-    fn coupled(&self, surface: &Surface, modes: Arc<Modes>) -> Result<Oscillations, PhysicsError> {
+    pub(crate) fn coupled(&self, surface: &Surface, modes: Arc<Modes>) -> Result<Oscillations, PhysicsError> {
         let poles = modes.poles().to_vec();
         let (sheet, medium) = (&surface.sheet, Medium::of(&surface.sheet));
         let loaded = Loaded::new(modes, &poles, &self.transducers, &self.fingers)?.with_rest(

@@ -2,8 +2,8 @@
 
 use super::paper::WAVELENGTH;
 use super::weyl::Weyl;
-use super::{Cavity, Recommended, Windows};
-use crate::{Accuracy, Medium, Modes, PhysicsError};
+use super::{Cavity, Recommended, Windows, WithActuators};
+use crate::{Accuracy, Medium, Modes, PhysicsError, SurfaceModes};
 use std::f64::consts::TAU;
 use unripple_core::{OutOfRange, Surface};
 
@@ -23,6 +23,8 @@ pub(super) struct Ground<'a> {
     pub scale: f64,
     /// Number of modes in the band, or the reason why they were not counted.
     pub counted: Result<usize, String>,
+    /// The modes as coupled to all that is attached to the sheet, counted; `None` where nothing is, or they are not known.
+    pub with_actuators: Option<WithActuators>,
     /// Frequency of the first mode, in Hz.
     pub first_mode_hz: f64,
     /// Wavenumber at the top of the band, in rad/m.
@@ -41,17 +43,19 @@ pub(super) struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    /// The quantities for a surface. `counted` is its mode count from [`count`] or [`counted`], or the
-    /// reason why there is none; `windows` gives the contrasts from which a window is chosen.
+    /// The quantities for a surface. `solved` are its modes, or the reason why there are none; `windows` gives the contrasts from which a
+    /// window is chosen.
     pub fn of(
         surface: &'a Surface,
-        counted: Counted,
+        solved: Solved,
         windows: impl FnOnce() -> Windows,
     ) -> Result<Self, PhysicsError> {
         check(surface)?;
         let top = surface.emission.band[1];
         let medium = Medium::of(&surface.sheet);
         let by_law = Cavity::of(surface, top);
+        let with_actuators = solved.as_ref().ok().and_then(|modes| WithActuators::of(surface, modes));
+        let counted = solved.map(|modes| counted(surface, &modes));
         let first = counted.as_ref().ok().and_then(|(_, first)| *first);
         let first_mode_hz = first.unwrap_or_else(|| medium.omega(Weyl::of(surface).first_wavenumber()) / TAU);
         // Weyl's law is used only where modes have not been counted: it is inaccurate for few modes.
@@ -76,6 +80,7 @@ impl<'a> Ground<'a> {
             medium,
             scale,
             counted: counted.map(|(count, _)| count),
+            with_actuators,
             first_mode_hz,
             k_top: medium.wavenumber(TAU * top),
             actuators,
@@ -182,22 +187,23 @@ fn check(surface: &Surface) -> Result<(), PhysicsError> {
     Ok(())
 }
 
-/// Number of modes in the band and the first frequency above 0, in Hz; or the reason why they are not
-/// known.
-pub(super) type Counted = Result<(usize, Option<f64>), String>;
+/// The modes of a surface up to the top of its band, or the reason why they are not known.
+pub(super) type Solved = Result<SurfaceModes, String>;
 
-/// Solves for the modes of a surface and counts those in its band.
-pub(super) fn count(surface: &Surface) -> Counted {
+/// Solves for the modes of a surface, of the sheet alone where what loads it is out of reach.
+pub(super) fn solved(surface: &Surface) -> Solved {
     check(surface).map_err(|e| e.to_string())?;
-    let accuracy = Accuracy::of(surface.accuracy, ACCURACY);
-    let modes = Modes::solve(surface, surface.emission.band[1], accuracy).map_err(|e| e.to_string())?;
-    Ok(counted(surface, &modes))
+    let (top, accuracy) = (surface.emission.band[1], Accuracy::of(surface.accuracy, ACCURACY));
+    SurfaceModes::solve(surface, top, accuracy).or_else(|_| {
+        let modes = Modes::solve(surface, top, accuracy).map_err(|e| e.to_string())?;
+        Ok(SurfaceModes::of_sheet(&modes, top))
+    })
 }
 
-/// Number of modes in the band and the first frequency above 0, in Hz.
-pub(super) fn counted(surface: &Surface, modes: &Modes) -> (usize, Option<f64>) {
+/// Number of modes of the sheet in the band, and the first frequency above 0, in Hz.
+fn counted(surface: &Surface, modes: &SurfaceModes) -> (usize, Option<f64>) {
     let [low, top] = surface.emission.band;
-    let frequencies = modes.frequencies_hz();
-    let inside = frequencies.iter().filter(|hz| (low..=top).contains(*hz)).count();
-    (inside, frequencies.iter().copied().find(|hz| *hz > 0.0))
+    let frequencies = || modes.sheet.iter().map(|pole| pole.omega / TAU);
+    let inside = frequencies().filter(|hz| (low..=top).contains(hz)).count();
+    (inside, frequencies().find(|hz| *hz > 0.0))
 }

@@ -47,7 +47,8 @@ pub use waves::Wave;
 pub use window::{Recommended, Windows, milliseconds};
 pub use with_actuators::WithActuators;
 
-use crate::{Modes, PhysicsError};
+use crate::{Modes, PhysicsError, SurfaceModes};
+use std::sync::Arc;
 use unripple_core::Surface;
 
 /// The design figures of a surface, with its modes solved for and counted.
@@ -65,15 +66,20 @@ use unripple_core::Surface;
 /// # Ok::<(), unripple_physics::PhysicsError>(())
 /// ```
 pub fn design(surface: &Surface) -> Result<Design, PhysicsError> {
-    on(&ground::Ground::of(surface, ground::count(surface), || Windows::of(surface))?)
+    on(&ground::Ground::of(surface, ground::solved(surface), || Windows::of(surface))?)
 }
 
-/// The design figures that [`design()`] gives, from modes already computed, which must include all modes of the band.
+/// The design figures that [`design()`] gives, from modes already computed: all of the band, and where actuators load the sheet, up to one
+/// and a half times its top, as [`response_modes`](crate::response_modes) gives them.
 ///
 /// # Errors
 /// Those of [`design()`].
-pub fn design_on(surface: &Surface, modes: &Modes) -> Result<Design, PhysicsError> {
-    on(&ground::Ground::of(surface, Ok(ground::counted(surface, modes)), || Windows::of(surface))?)
+pub fn design_on(surface: &Surface, modes: &Arc<Modes>) -> Result<Design, PhysicsError> {
+    let top = surface.emission.band[1];
+    // What they cannot be computed for is said where it is needed; a design has its other figures.
+    let solved = SurfaceModes::on(surface, top, modes.clone());
+    let solved = solved.unwrap_or_else(|_| SurfaceModes::of_sheet(modes, top));
+    on(&ground::Ground::of(surface, Ok(solved), || Windows::of(surface))?)
 }
 
 /// The design figures of a surface without solving for its modes, which is much faster: modes are counted by Weyl's law, and the
@@ -88,10 +94,7 @@ pub fn design_by_law(surface: &Surface, reason: impl Into<String>) -> Result<Des
 
 fn on(ground: &ground::Ground<'_>) -> Result<Design, PhysicsError> {
     let mut design = Design::on(ground);
-    if ground.counted.is_ok() {
-        // What they cannot be computed for is said where it is needed; a design has its other figures.
-        design.with_actuators = WithActuators::of(ground.surface).unwrap_or(None);
-    }
+    design.with_actuators = ground.with_actuators.clone();
     design.notes = notes::notes(ground, &design);
     design.paper = paper::is_papers_film(ground.surface).then(|| remarks::paper_figures(ground, &design));
     Ok(design)

@@ -1,7 +1,6 @@
 //! The modes of a surface with its actuators on it, counted: masses, springs, coils and electrical loads.
 
-use super::ground::ACCURACY;
-use crate::{Accuracy, PhysicsError, loaded_modes};
+use crate::SurfaceModes;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use unripple_core::Surface;
@@ -18,23 +17,17 @@ pub struct WithActuators {
 }
 
 impl WithActuators {
-    /// Computes the modes up to the top of the band with the actuators on the sheet; `None` if no actuator
-    /// loads the sheet, or no mode is in the band.
-    ///
-    /// # Errors
-    /// Those of [`loaded_modes`].
-    pub(super) fn of(surface: &Surface) -> Result<Option<Self>, PhysicsError> {
-        let [low, top] = surface.emission.band;
-        let Some(modes) = loaded_modes(surface, top, Accuracy::of(surface.accuracy, ACCURACY))? else {
-            return Ok(None);
-        };
-        let first = modes.iter().find(|mode| mode.omega > 0.0);
+    /// Counts the modes of a surface with its actuators on it; `None` if no actuator loads the sheet, or no mode is in the band.
+    pub(super) fn of(surface: &Surface, modes: &SurfaceModes) -> Option<Self> {
+        let low = surface.emission.band[0];
+        let modes = modes.loaded.as_ref()?;
+        let first = modes.iter().find(|mode| mode.omega > 0.0)?;
         let inside: Vec<_> = modes.iter().filter(|mode| mode.omega >= TAU * low).collect();
         let decay = inside.iter().map(|mode| mode.sigma).sum::<f64>() / inside.len() as f64;
-        Ok(first.filter(|_| !inside.is_empty()).map(|first| Self {
+        (!inside.is_empty()).then(|| Self {
             mode_count: inside.len(),
             first_mode_hz: first.omega / TAU,
             decay_time_s: 1.0 / decay,
-        }))
+        })
     }
 }

@@ -91,7 +91,7 @@ fn with_mass(mass: f64, top: f64) -> Vec<f64> {
 #[test]
 fn a_mass_lowers_every_mode_as_the_secular_equation_says() {
     let surface = plate(CoilDrive::Current, MASS);
-    let found = loaded_modes(&surface, 1000.0, 1e-7).unwrap().unwrap();
+    let found = SurfaceModes::solve(&surface, 1000.0, 1e-7).unwrap().loaded.unwrap();
     let expected = with_mass(MASS, 1000.0);
     assert_eq!(found.len(), expected.len());
     let errors: Vec<f64> =
@@ -108,7 +108,7 @@ fn a_mass_lowers_every_mode_as_the_secular_equation_says() {
 fn a_coil_on_a_voltage_damps_each_mode_by_its_motion_there() {
     // Without mass: the conductance (Bl)²/R at the contact adds half of itself times the square of the shape to the decay rate, to first order.
     let surface = plate(CoilDrive::Voltage, 0.0);
-    let found = loaded_modes(&surface, 1000.0, 1e-7).unwrap().unwrap();
+    let found = SurfaceModes::solve(&surface, 1000.0, 1e-7).unwrap().loaded.unwrap();
     let mut modes = series(30);
     modes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let damping = 0.5 * 0.5 / 5.0;

@@ -5,7 +5,7 @@ use crate::curves::flattened;
 use crate::numbers::above_zero;
 use crate::{Progress, TaskError, go_on};
 use unripple::act::less_accurate;
-use unripple::physics::{Accuracy, Modes, loaded_modes};
+use unripple::physics::{Accuracy, SurfaceModes};
 
 /// Default relative accuracy, if it can be reached: a phase error of 1e-3 rad at 3 kHz after 50 ms. With a
 /// smaller value, modes that need a mesh take minutes.
@@ -22,20 +22,17 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let accuracy = Accuracy::of(ask.accuracy.or(surface.accuracy), ACCURACY);
     go_on(progress)?;
     progress.stage("modes");
-    let modes = Modes::solve(&surface, top, accuracy).map_err(TaskError::input)?;
-    let (frequencies, decays) = (modes.frequencies_hz(), modes.decay_times());
-    go_on(progress)?;
-    progress.stage("modes with the actuators on the sheet");
-    let loaded = loaded_modes(&surface, top, accuracy).map_err(TaskError::input)?;
+    let modes = SurfaceModes::solve(&surface, top, accuracy).map_err(TaskError::input)?;
+    let sheet = Loaded::of(&modes.sheet);
     Ok(Report {
         surface: surface.name.clone(),
         max_hz: top,
-        count: frequencies.len(),
-        frequencies_hz: frequencies.to_vec(),
-        decay_times_s: decays.iter().map(|t| t.is_finite().then_some(*t)).collect(),
-        bending_shares: modes.bending_shares().to_vec(),
-        relative_error: modes.error(),
-        loaded: loaded.map(|modes| Loaded::of(&modes)),
-        notes: flattened(&surface).into_iter().chain(less_accurate(modes.error(), accuracy.aim)).collect(),
+        count: sheet.count,
+        frequencies_hz: sheet.frequencies_hz,
+        decay_times_s: sheet.decay_times_s,
+        relative_error: modes.error,
+        loaded: modes.loaded.as_deref().map(Loaded::of),
+        notes: flattened(&surface).into_iter().chain(less_accurate(modes.error, accuracy.aim)).collect(),
+        bending_shares: modes.bending_shares,
     })
 }
