@@ -72,7 +72,9 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
         levels.push(modes(surface, &fabric, bounds, plan, &mesh(1 + levels.len()))?.level());
     }
     let third = coarse.coarser(1.0 / rates::finer(&levels, bounds.accuracy));
-    let mut plan = if cost(surface, &third)?.1 <= MEMORY { third } else { plan };
+    // From levels that tell no rate the third has no edge length, and no cost.
+    let fits = cost(surface, &third).is_ok_and(|(_, needed)| needed <= MEMORY);
+    let mut plan = if fits { third } else { plan };
     let mut best = Best::up_to(bounds.most);
     for _ in 0..ROUNDS {
         // Meshes before were solved: what is out of reach is the accuracy.
