@@ -1,6 +1,7 @@
 //! The Rayleigh-Ritz eigenvalue problem, one symmetry class at a time.
 
 use super::super::eigen::{Method, orthonormalised, product, symmetric};
+use super::super::largest::largest;
 use super::line::Class;
 use super::plate::Plate;
 use super::product::{Product, Symmetry};
@@ -14,6 +15,9 @@ const ABOVE: f64 = 0.3;
 /// errors along vectors of high energy shrink by the ratio of that energy to the top energy; one more
 /// changes only the last digits.
 const SWEEPS: usize = 2;
+
+/// Number of products from which the lowest modes are sought by iteration: below, a full decomposition takes a fraction of a second.
+const LARGE: usize = 600;
 
 /// Modes of one symmetry class, in order of ascending frequency.
 #[derive(Debug)]
@@ -100,10 +104,8 @@ fn lowest(energy: &Mat<f64>, top: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)>
     let n = energy.nrows();
     let mut shifted = energy.clone();
     (0..n).for_each(|i| shifted[(i, i)] += top);
-    let inverse = -Cholesky::new(shifted.as_ref())?.inverse();
-    let (values, vectors) = symmetric(inverse.as_ref(), Method::Fast)?;
-    let kept = values.partition_point(|v| -1.0 / v - top <= top * (1.0 + ABOVE));
-    let mut vectors = vectors.subcols(0, kept).to_owned();
+    let inverse = Cholesky::new(shifted.as_ref())?.inverse();
+    let (values, mut vectors) = at_least(&inverse, 1.0 / (top * (2.0 + ABOVE)), par)?;
     for _ in 0..SWEEPS {
         let mut swept = product(inverse.as_ref(), vectors.as_ref(), par);
         for (column, value) in swept.col_iter_mut().zip(&values) {
@@ -115,6 +117,17 @@ fn lowest(energy: &Mat<f64>, top: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)>
     let between = product(vectors.transpose(), forces.as_ref(), par);
     let (values, rotation) = symmetric(between.as_ref(), Method::Exact)?;
     Some((values, product(vectors.as_ref(), rotation.as_ref(), par)))
+}
+
+/// The eigenvalues of at least `least` of a symmetric matrix, descending, and their vectors: by iteration where the matrix is large and
+/// they are few, else by a full decomposition. Any that iteration were to miss would show in [`missing`].
+fn at_least(matrix: &Mat<f64>, least: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)> {
+    let few = if matrix.nrows() < LARGE { None } else { largest(matrix.as_ref(), least, par) };
+    few.or_else(|| {
+        let (values, vectors) = symmetric((-matrix).as_ref(), Method::Fast)?;
+        let kept = values.partition_point(|value| -value >= least);
+        Some((values[..kept].iter().map(|value| -value).collect(), vectors.subcols(0, kept).to_owned()))
+    })
 }
 
 /// Estimated largest relative error of a frequency: the change by a quarter more functions along each side, doubled to
