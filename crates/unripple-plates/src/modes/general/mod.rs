@@ -77,9 +77,13 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
     let mut plan = if fits { third } else { plan };
     let mut best = Best::up_to(bounds.most);
     for _ in 0..ROUNDS {
-        // Meshes before were solved: what is out of reach is the accuracy.
-        if best.is_any() && cost(surface, &plan)?.1 > MEMORY {
-            break;
+        // The first of these plans is known to fit.
+        if levels.len() > 2 && cost(surface, &plan)?.1 > MEMORY {
+            // Where meshes before tell their error, what is out of reach is the accuracy.
+            if best.is_any() {
+                break;
+            }
+            return Err(too_large(surface, bounds, &plan)?);
         }
         let fine = match modes(surface, &fabric, bounds, &plan, &mesh(1 + levels.len())) {
             Err(PhysicsError::Solver { .. }) if best.is_any() => break,
@@ -121,7 +125,7 @@ fn affordable(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<Pla
     Ok(plan)
 }
 
-/// Meshes a sheet as planned, assembles its matrices and solves for the modes below the top.
+/// Meshes a sheet as planned, assembles its matrices and solves for the modes below the top. The plan must be known to fit in memory.
 fn modes(
     surface: &Surface,
     fabric: &Fabric,
@@ -129,7 +133,6 @@ fn modes(
     plan: &Plan,
     observed: &Observed,
 ) -> Result<Solution, PhysicsError> {
-    guard(surface, bounds, plan)?;
     observed.part(|| "triangles".into());
     let mesh = Mesh::new(&surface.outline, &plan.sizing())?;
     let space = Space::new(&mesh, fabric.bends()).with_kinks(&mesh, fabric);
@@ -218,11 +221,6 @@ fn sign(coefficients: ColRef<'_, f64>) -> f64 {
 fn cost(surface: &Surface, plan: &Plan) -> Result<(usize, f64), PhysicsError> {
     let unknowns = plan.unknowns(&surface.outline)?;
     Ok((unknowns, spectrum::estimate_bytes(unknowns, plan.modes())))
-}
-
-/// Refuses a problem that would not fit in memory, before any is allocated.
-fn guard(surface: &Surface, bounds: &Bounds, plan: &Plan) -> Result<(), PhysicsError> {
-    if cost(surface, plan)?.1 > MEMORY { Err(too_large(surface, bounds, plan)?) } else { Ok(()) }
 }
 
 /// The error for a plan that would not fit in memory, with the top frequency up to which it would. It takes some forty estimates of the
