@@ -67,6 +67,9 @@ pub(super) fn largest(matrix: MatRef<'_, f64>, least: f64, par: Par) -> Option<(
         }
         // A basis of fewer than one and a half times as many vectors has never all of them.
         next = (j + 1 + PATIENCE).max((to - first) * 3 / 2 / BLOCK);
+        if next > most {
+            return None;
+        }
     }
     None
 }
