@@ -111,9 +111,13 @@ pub fn responses_on(
 /// # Errors
 /// Those of [`transducers`].
 pub fn stepped_hz(surface: &Surface, max_hz: f64) -> Result<f64, PhysicsError> {
-    let loaded = transducers(surface)?.iter().filter_map(|t| t.load.as_ref()).any(Load::acts);
-    let reach = if loaded { ResponseOptions::default().reach } else { 1.0 };
+    let reach = if is_loaded(surface)? { ResponseOptions::default().reach } else { 1.0 };
     Ok(sampled_hz(surface, reach * max_hz, max_hz))
+}
+
+/// Whether any actuator loads the sheet.
+pub(crate) fn is_loaded(surface: &Surface) -> Result<bool, PhysicsError> {
+    Ok(transducers(surface)?.iter().filter_map(|t| t.load.as_ref()).any(Load::acts))
 }
 
 /// Highest frequency of modes in sampled responses, as a share of the sample rate: modes above half the

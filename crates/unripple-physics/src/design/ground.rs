@@ -3,6 +3,7 @@
 use super::paper::WAVELENGTH;
 use super::weyl::Weyl;
 use super::{Cavity, Recommended, Windows, WithActuators};
+use crate::responses::is_loaded;
 use crate::{Accuracy, Medium, Modes, PhysicsError, SurfaceModes};
 use std::f64::consts::TAU;
 use unripple_core::{OutOfRange, Surface};
@@ -194,10 +195,14 @@ pub(super) type Solved = Result<SurfaceModes, String>;
 pub(super) fn solved(surface: &Surface) -> Solved {
     check(surface).map_err(|e| e.to_string())?;
     let (top, accuracy) = (surface.emission.band[1], Accuracy::of(surface.accuracy, ACCURACY));
-    SurfaceModes::solve(surface, top, accuracy).or_else(|_| {
-        let modes = Modes::solve(surface, top, accuracy).map_err(|e| e.to_string())?;
-        Ok(SurfaceModes::of_sheet(&modes, top))
-    })
+    let solved = match SurfaceModes::solve(surface, top, accuracy) {
+        // Of a sheet that nothing loads, the same solution would fail again.
+        Err(_) if is_loaded(surface).unwrap_or(true) => {
+            Modes::solve(surface, top, accuracy).map(|modes| SurfaceModes::of_sheet(&modes, top))
+        }
+        solved => solved,
+    };
+    solved.map_err(|e| e.to_string())
 }
 
 /// Number of modes of the sheet in the band, and the first frequency above 0, in Hz.
