@@ -180,9 +180,11 @@ impl Acts {
 fn struck(plant: &Plant, channel: &Channel, rate: f64) -> f64 {
     let coil = channel.load.as_ref().and_then(|load| load.circuit).filter(|_| channel.voltage);
     let gain = match coil {
-        // Of a coil whose current is slow, hardly anything at once.
+        // The current rises within L/R: its mean over the first sample, 1 - (1 - e^-θ)/θ of V/R, is θ/2 of it where that is slow.
         Some(coil) => {
-            coil.force_constant / coil.resistance * (1.0 - coil.inductance * rate / coil.resistance).max(0.0)
+            let theta = coil.resistance / (coil.inductance * rate);
+            let risen = if theta < 1e-3 { theta / 2.0 } else { 1.0 + (-theta).exp_m1() / theta };
+            coil.force_constant / coil.resistance * risen
         }
         None => 1.0,
     };
