@@ -257,7 +257,7 @@ pub(crate) fn shortened(name: &str) -> String {
 /// Largest magnitude of a value that is drawn, in the unit shown; anything beyond counts as a gap.
 pub(crate) const LARGEST: f64 = 1e100;
 
-/// Smallest value on a logarithmic axis, so that the ratio of any two is a number.
+/// Smallest value on a logarithmic axis and smallest span of any other, so that the ratio of any two is a number.
 const SMALLEST: f64 = 1e-100;
 
 /// Both ends of the range, in the unit shown.
@@ -287,7 +287,7 @@ fn range(axis: &Axis, data: impl Iterator<Item = f64>, padding: Padding) -> Resu
     };
     let given = |end: Option<f64>| end.map(|end| end * axis.multiplier);
     let (low, high) = (given(axis.low).unwrap_or(low), given(axis.high).unwrap_or(high));
-    check(&name, "a high end above the low one", high, |high| high > low)?;
+    check(&name, "a high end above the low one", high, |high| high > low && (log || high - low >= SMALLEST))?;
     Ok((low, high))
 }
 

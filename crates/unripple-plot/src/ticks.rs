@@ -3,8 +3,8 @@
 /// Values of the ticks of a linear axis: multiples of 1, 2 or 5 times a power of ten, at most `most` of them, all
 /// from `low` to `high`.
 ///
-/// Empty if the ends are not finite or not in order, if `most` is 0, or if no multiple of the step lies between the
-/// ends.
+/// Empty if the ends are not finite or not in order, if they are less than 1e-300 apart, if `most` is 0, or if no multiple
+/// of the step lies between the ends.
 ///
 /// # Example
 /// ```
@@ -20,7 +20,7 @@ pub fn nice_ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
 /// The smallest of 1, 2 or 5 times a power of ten with at most `most` multiples from `low` to `high`.
 fn nice_step(low: f64, high: f64, most: usize) -> Option<f64> {
     let span = high - low;
-    if !(span.is_finite() && span > 0.0) || most == 0 {
+    if !(span.is_finite() && span >= CLOSEST) || most == 0 {
         return None;
     }
     let first = (span / most as f64).log10().floor() as i32 - 1;
@@ -28,6 +28,9 @@ fn nice_step(low: f64, high: f64, most: usize) -> Option<f64> {
         .flat_map(|exponent| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(exponent)))
         .find(|&step| step > 0.0 && count(step, low, high) <= most as f64)
 }
+
+/// Least distance of the ends of an axis with ticks: below, steps are denormal numbers or zero.
+const CLOSEST: f64 = 1e-300;
 
 fn count(step: f64, low: f64, high: f64) -> f64 {
     (high / step + SLACK).floor() - (low / step - SLACK).ceil() + 1.0
@@ -194,7 +197,7 @@ mod tests {
 
     #[test]
     fn degenerate_ranges_have_no_ticks() {
-        for (low, high) in [(1.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
+        for (low, high) in [(1.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY), (0.0, 5e-324)] {
             assert!(nice_ticks(low, high, 5).is_empty());
         }
         assert!(nice_ticks(0.0, 1.0, 0).is_empty());
