@@ -150,7 +150,7 @@ fn nodal(mesh: &Mesh, triangle: &Triangle, lengths: &[f64], function: impl Fn(Po
     values
 }
 
-/// Stiffness, bending and mass matrices of a triangle that has functions with jumps.
+/// The matrices of a triangle that has functions with jumps.
 pub(super) fn shares(element: &Element, fabric: &Fabric, rule: &Rule) -> Shares {
     let mut sums = Sums::new(element.unknowns.len());
     let discs = fabric.discs();
@@ -230,9 +230,6 @@ impl Sums {
     /// The complete symmetric matrices.
     fn shares(mut self) -> Shares {
         let n = self.count;
-        for (rest, bending) in self.rest.iter_mut().zip(&self.bending) {
-            *rest += bending;
-        }
         for matrix in [&mut self.rest, &mut self.bending, &mut self.mass] {
             for i in 0..n {
                 for j in 0..i {

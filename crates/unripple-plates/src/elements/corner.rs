@@ -108,6 +108,11 @@ impl Corner {
         Self { count: free.len(), length, values }
     }
 
+    /// Whether the unknowns are all six values, free of any condition.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.count == 6 && self.values.iter().all(|(triangle, _)| triangle.is_none())
+    }
+
     /// Coefficients of the unknowns for u, u_x, u_y, u_xx, u_xy, u_yy in a triangle: six rows of
     /// [`Corner::count`].
     pub(crate) fn values(&self, triangle: usize) -> &[f64] {

@@ -28,7 +28,7 @@ pub(crate) struct Element {
     jumping: Vec<Jumping>,
 }
 
-/// Stiffness, bending and mass matrices of one triangle, between its unknowns, row by row.
+/// Matrices of one triangle between its nodal values, row by row: stiffness other than bending (tension and springs), bending, mass.
 pub(super) type Shares = [Vec<f64>; 3];
 
 /// A function N (ψq - I(ψq)) with a jump of curvature at the rim of a disc, see [`Kink`], on one triangle.

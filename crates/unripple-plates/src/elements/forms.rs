@@ -42,24 +42,26 @@ impl Space {
         let masses = self.point_masses(fabric);
         let mut sums = [(); 3].map(|()| vec![0.0; symbolic.row_idx().len()]);
         for (batch, elements) in self.elements.chunks(BATCH).enumerate() {
-            let shares: Vec<Shares> = elements
-                .par_iter()
-                .map(|element| match element.kinks().next() {
+            let shares = elements.par_iter().enumerate().map(|(i, element)| {
+                let mut share = match element.kinks().next() {
                     Some(_) => across::shares(element, fabric, &rules.across),
                     None => shares(element, fabric, &rules),
-                })
-                .collect();
-            for (i, (element, mut share)) in elements.iter().zip(shares).enumerate() {
+                };
                 for (_, weights, mass) in masses.iter().filter(|(e, ..)| *e == batch * BATCH + i) {
                     add_point(&mut share[2], weights, *mass);
                 }
+                let [mut stiffness, bending, mass] = self.relative.between(element, share);
+                stiffness.iter_mut().zip(&bending).for_each(|(sum, b)| *sum += b);
+                (self.relative.among(element), [stiffness, bending, mass])
+            });
+            for (unknowns, share) in shares.collect::<Vec<(Vec<usize>, Shares)>>() {
                 let (starts, rows) = (symbolic.col_ptr(), symbolic.row_idx());
-                let count = element.unknowns.len();
-                for (c, column) in element.unknowns.iter().enumerate() {
+                let count = unknowns.len();
+                for (c, column) in unknowns.iter().enumerate() {
                     let start = starts[*column];
                     let within = &rows[start..starts[*column + 1]];
                     let mut place = 0;
-                    for (r, row) in element.unknowns.iter().enumerate() {
+                    for (r, row) in unknowns.iter().enumerate() {
                         // Most rows follow the one before.
                         if within.get(place) != Some(row) {
                             place = within.partition_point(|other| other < row);
@@ -94,8 +96,7 @@ fn add_point(mass: &mut [f64], weights: &[f64], added: f64) {
     }
 }
 
-/// Stiffness, bending and mass matrices of one triangle, by quadrature with the sheet's properties at the
-/// quadrature points.
+/// The matrices of one triangle, by quadrature with the sheet's properties at the quadrature points.
 fn shares(element: &Element, fabric: &Fabric, rules: &Rules) -> Shares {
     let frame = &element.frame;
     let mut moments = Moments::new(frame, element.monomials());
@@ -117,10 +118,7 @@ fn shares(element: &Element, fabric: &Fabric, rules: &Rules) -> Shares {
     add_springs(&mut rest, element, rule);
     let arch = Arch::new();
     let congruent = |form: &Form| arch.dispatch(Congruent { element, form });
-    let bending = congruent(&moments.bending());
-    let mut stiffness = congruent(&rest);
-    stiffness.iter_mut().zip(&bending).for_each(|(sum, b)| *sum += b);
-    [stiffness, bending, congruent(&moments.mass())]
+    [congruent(&rest), congruent(&moments.bending()), congruent(&moments.mass())]
 }
 
 /// Adds ∮ lift uv + tilt ∂u/∂n ∂v/∂n along elastic edges.

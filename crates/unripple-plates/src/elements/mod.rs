@@ -12,6 +12,7 @@ mod moments;
 mod monomials;
 mod overlap;
 mod pattern;
+mod rigid;
 mod rule;
 mod shapes;
 mod space;

@@ -8,14 +8,15 @@ use unripple_linalg::sparse::SymbolicSparseColMat;
 pub(crate) fn pattern(space: &Space) -> SymbolicSparseColMat<usize> {
     let size = space.unknowns();
     let mut sharers = vec![Vec::new(); size];
-    for (e, element) in space.elements.iter().enumerate() {
-        element.unknowns.iter().for_each(|u| sharers[*u].push(e));
+    let among: Vec<Vec<usize>> = space.elements.iter().map(|element| space.relative.among(element)).collect();
+    for (e, unknowns) in among.iter().enumerate() {
+        unknowns.iter().for_each(|u| sharers[*u].push(e));
     }
     let mut seen = vec![usize::MAX; size];
     let (mut starts, mut rows) = (vec![0], Vec::new());
     for (column, sharers) in sharers.iter().enumerate() {
         let start = rows.len();
-        for row in sharers.iter().flat_map(|e| &space.elements[*e].unknowns) {
+        for row in sharers.iter().flat_map(|e| &among[*e]) {
             if seen[*row] != column {
                 seen[*row] = column;
                 rows.push(*row);

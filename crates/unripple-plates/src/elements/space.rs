@@ -4,10 +4,12 @@ use super::border::Border;
 use super::corner::Corner;
 use super::element::{Element, Middle, Seen};
 use super::grid::Grid;
+use super::rigid::Relative;
 use super::topology::Topology;
 use crate::mesh::Mesh;
 use rayon::prelude::*;
 use unripple_core::{Edge, Point};
+use unripple_linalg::Mat;
 
 /// Continuously differentiable quintics on a mesh that satisfy the essential boundary conditions.
 ///
@@ -20,6 +22,8 @@ pub(crate) struct Space {
     /// The grid for finding the triangle that contains a point.
     pub(super) grid: Grid,
     pub(super) unknowns: usize,
+    /// The unknowns that are relative to a free corner.
+    pub(super) relative: Relative,
 }
 
 impl Space {
@@ -45,6 +49,11 @@ impl Space {
                 Middle { unknown: (!zero).then(|| next(1)), ..middle }
             })
             .collect();
+        let relative = if bending {
+            Relative::new((mesh, &topology), &corners, &firsts, &middles, unknowns)
+        } else {
+            Relative::default()
+        };
         let elements: Vec<Element> = (0..mesh.triangles.len())
             .into_par_iter()
             .map(|t| {
@@ -62,12 +71,18 @@ impl Space {
             })
             .collect();
         let grid = Grid::new(mesh, &elements);
-        Self { elements, grid, unknowns }
+        Self { elements, grid, unknowns, relative }
     }
 
     /// Number of unknowns n: the size of all matrices.
     pub(crate) fn unknowns(&self) -> usize {
         self.unknowns
+    }
+
+    /// Turns vectors of the matrices' unknowns, unknowns x vectors, into nodal values, which are the unknowns of [`Space::weights`]: around
+    /// free corners the matrices' unknowns are relative to the motion of the corner.
+    pub(crate) fn nodal(&self, vectors: &mut Mat<f64>) {
+        self.relative.nodal(vectors);
     }
 
     /// Index of the triangle that contains a point (m), and the point itself; for a point outside the

@@ -11,11 +11,6 @@ use unripple_core::{Edge, Outline};
 /// Shortest edge at a corner, relative to the edge length elsewhere: there coordinates have about seven
 /// digits left. Halved, the strongest singularities get one or two more rings of triangles.
 const FLOOR: f64 = 1e-9;
-/// Relative rounding error of the lowest eigenvalues where a sheet with bending stiffness can move at a
-/// corner, for edges there as long as the sheet is wide: measured at a slot in a free plate, where edges of
-/// 2e-6 widths cause an error of 1e-4 at four such corners. A tenth of it, and edges would be chosen for
-/// which all of the error is rounding.
-const ROUNDED: f64 = 1e-16;
 /// Power p up to which an element at a corner misses the share [`LOOSE`] of the singular energy in it. See
 /// [`missed`].
 const ROUGH: f64 = 0.6;
@@ -52,17 +47,6 @@ pub(crate) struct Corner {
     pub(crate) edges: [Edge; 2],
     /// Jump of the rim's curvature at the corner, in 1/m, if the sides meet at a straight angle; else 0.
     pub(crate) jump: f64,
-    /// Width of the sheet, in metres.
-    pub(crate) width: f64,
-}
-
-impl Corner {
-    /// The relative rounding error of the lowest eigenvalues, if edges at the corner have the length `size`
-    /// (m) of those elsewhere. It rises as the inverse square of the edge length.
-    fn rounding(&self, size: f64, bending: bool) -> f64 {
-        let rounds = bending && self.edges.iter().all(|edge| edge.moves());
-        if rounds { ROUNDED * (self.width / size).powi(2) } else { 0.0 }
-    }
 }
 
 /// The corners of an outline, at the start of each side, in the order of [`Mesh::sides`](super::Mesh::sides).
@@ -71,27 +55,24 @@ impl Corner {
 /// [`PhysicsError::Outline`] for an invalid outline.
 pub(crate) fn corners(outline: &Outline) -> Result<Vec<Corner>, PhysicsError> {
     let rims = Rims::new(outline)?;
-    let (width, height) = outline.extent();
     let corner = |i: usize| {
         let ((before, first), (after, second)) = (rims.sides[rims.previous(i)], rims.sides[i]);
         let continued = (rims.angles[i] - PI).abs() < SMOOTH;
         let jump = if continued { (after.curvature(0.0) - before.curvature(1.0)).abs() } else { 0.0 };
         let jump = if jump.is_finite() { jump } else { 0.0 };
-        Corner { angle: rims.angles[i], edges: [first, second], jump, width: width.max(height) }
+        Corner { angle: rims.angles[i], edges: [first, second], jump }
     };
     Ok((0..rims.sides.len()).map(corner).collect())
 }
 
 /// The smallest edge at a corner, relative to the edge length elsewhere (`size`, in metres), for which the
 /// elements' error in the singular part of the solution changes no eigenvalue by more than the relative
-/// `accuracy`, or by as much as rounding does; 1 if no smaller edge is needed, at least 1e-9.
+/// `accuracy`; 1 if no smaller edge is needed, at least 1e-9.
 ///
 /// If the solution is singular as r^ν, the energy that elements of size r miss is as (r/size)^(2p), p = ν - 1 with bending and ν
 /// without.
 pub(crate) fn smallest_edge(corner: &Corner, size: f64, bending: bool, accuracy: f64) -> f64 {
-    let rounding = corner.rounding(size, bending);
-    Singularity::of(corner, size, bending, accuracy)
-        .map_or(1.0, |s| s.smallest_edge(accuracy).max(s.floor(rounding)))
+    Singularity::of(corner, size, bending, accuracy).map_or(1.0, |s| s.smallest_edge(accuracy))
 }
 
 /// The number of corners where the singular part of the solution would change eigenvalues by more than the
@@ -111,10 +92,8 @@ pub(crate) fn unresolved(corners: &[Corner], size: f64, bending: bool, accuracy:
         // A singular part that needs no smaller edge may still be one of many.
         let all = accuracy.min(FAINT);
         let Some(s) = Singularity::of(corner, size, bending, all) else { return 0.0 };
-        let rounding = corner.rounding(size, bending);
-        let floor = s.floor(rounding);
-        let share = s.smallest_edge(accuracy).max(floor);
-        let hidden = share <= floor || (share >= 1.0 && s.power < SLOW);
+        let share = s.smallest_edge(accuracy);
+        let hidden = share <= FLOOR || (share >= 1.0 && s.power < SLOW);
         let missed = s.strength * missed(s.power);
         // Near a whole power the solution is nearly a polynomial, which elements hold.
         let apart = (PI * s.power).sin().powi(2);
@@ -125,7 +104,7 @@ pub(crate) fn unresolved(corners: &[Corner], size: f64, bending: bool, accuracy:
             false if share < 1.0 => LEFT,
             false => 0.0,
         };
-        missed * (rings + left * core) + if share < 1.0 { rounding / (share * share) } else { 0.0 }
+        missed * (rings + left * core)
     };
     corners.iter().map(of).sum()
 }
@@ -180,13 +159,6 @@ impl Singularity {
         power.is_finite().then_some(Self { power, strength })
     }
 
-    /// The smallest edge of any use, relative to the edge length elsewhere: where rounding error equals
-    /// what elements there miss; at least [`FLOOR`]. `rounding` is the rounding error for edges as long as
-    /// elsewhere.
-    fn floor(self, rounding: f64) -> f64 {
-        (rounding / (self.strength * missed(self.power))).powf(0.5 / (self.power + 1.0)).clamp(FLOOR, 1.0)
-    }
-
     /// The smallest edge for a given accuracy, see [`smallest_edge`].
     fn smallest_edge(self, accuracy: f64) -> f64 {
         (accuracy / (self.strength * missed(self.power))).powf(0.5 / self.power).clamp(FLOOR, 1.0)
@@ -218,7 +190,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, TAU};
 
     fn smallest_edge(angle: f64, edges: [Edge; 2], bending: bool, accuracy: f64) -> f64 {
-        super::smallest_edge(&Corner { angle, edges, jump: 0.0, width: 1.0 }, 1.0, bending, accuracy)
+        super::smallest_edge(&Corner { angle, edges, jump: 0.0 }, 1.0, bending, accuracy)
     }
 
     #[test]
@@ -252,7 +224,7 @@ mod tests {
     #[test]
     fn jumps_of_curvature_are_corners_too() {
         let at = |edge, jump| {
-            super::smallest_edge(&Corner { angle: PI, edges: [edge; 2], jump, width: 1.0 }, 0.01, true, 1e-6)
+            super::smallest_edge(&Corner { angle: PI, edges: [edge; 2], jump }, 0.01, true, 1e-6)
         };
         assert_eq!(at(Supported, 0.0), 1.0);
         assert!(at(Supported, 20.0) < 0.1 && at(Free, 20.0) < 0.1);
@@ -262,14 +234,13 @@ mod tests {
     #[test]
     fn what_no_mesh_resolves_is_told() {
         let of = |count: u32, accuracy: f64| {
-            let corner =
-                Corner { angle: PI - TAU / f64::from(count), edges: [Supported; 2], jump: 0.0, width: 1.0 };
+            let corner = Corner { angle: PI - TAU / f64::from(count), edges: [Supported; 2], jump: 0.0 };
             unresolved(&vec![corner; count as usize], 0.01, true, accuracy, GROWTH)
         };
         // A supported circle's first frequency is a sixth below that of the polygons that approach it.
         assert!(of(48, 1e-3) > 0.1 && of(1000, 1e-3) > 0.1 && of(24, 1e-3) > 1e-2);
         assert!(of(6, 1e-4) < 4e-4 && of(4, 1e-3) == 0.0);
-        let ell = [Corner { angle: 1.5 * PI, edges: [Supported; 2], jump: 0.0, width: 1.0 }];
+        let ell = [Corner { angle: 1.5 * PI, edges: [Supported; 2], jump: 0.0 }];
         let [coarse, fine] = [GROWTH, 0.5 * GROWTH].map(|growth| unresolved(&ell, 0.01, true, 1e-6, growth));
         assert!(coarse > 1e-5 && fine < 5e-7, "{coarse:e} {fine:e}");
     }

@@ -51,6 +51,25 @@ fn every_accuracy_is_kept_where_corners_are_free() {
 }
 
 #[test]
+fn every_accuracy_is_kept_at_the_corners_of_free_holes() {
+    // Clamped all round, with a triangular hole: at its corners the plate bends as r^0.5.
+    let corners = [[0.4, 0.4], [0.7, 0.5], [0.45, 0.65]].map(|[x, y]| Point::new(x, y));
+    let mut surface = unit_plate(1.0, 0.3, Edges::All(Edge::Clamped));
+    surface.outline =
+        surface.outline.with_hole(Hole::new(&Shape::Polygon(corners.to_vec()), Point::new(0.0, 0.0)));
+    let exact = Modes::solve(&surface, 30.0, 1e-7).unwrap().frequencies_hz();
+    for accuracy in [1e-3, 1e-4, 1e-5, 1e-6] {
+        let modes = Modes::solve(&surface, 30.0, accuracy).unwrap();
+        let differences =
+            modes.frequencies_hz().into_iter().zip(&exact).map(|(f, exact)| (f / exact - 1.0).abs());
+        let error = differences.fold(0.0, f64::max);
+        let claimed = modes.error();
+        assert!(error <= claimed + 1e-7 && claimed <= accuracy, "{accuracy}: {error} {claimed}");
+        assert!(claimed < 100.0 * error + 1e-7, "{accuracy}: {error} {claimed}");
+    }
+}
+
+#[test]
 fn many_modes_of_a_free_plate() {
     // The energies of the polynomials span thirteen decades here.
     let mut surface = film(edges("ffff"));

@@ -7,5 +7,6 @@ mod kinks;
 mod meshes;
 mod patch;
 mod readout;
+mod relative;
 mod solve;
 mod squares;

@@ -146,7 +146,7 @@ fn modes(
         let found = format!("residuals of up to {:e}", pairs.residual);
         return Err(PhysicsError::Solver { max_hz: bounds.max_hz, found });
     }
-    let pairs = settled(pairs, surface, bounds);
+    let mut pairs = settled(pairs, surface, bounds);
     let bent = sparse_times(forms.bending.as_ref(), pairs.vectors.as_ref());
     let share = |m: usize| {
         let energy: f64 = bent.col(m).iter().zip(pairs.vectors.col(m).iter()).map(|(b, x)| b * x).sum();
@@ -154,6 +154,7 @@ fn modes(
         if square > 0.0 { (energy / square).clamp(0.0, 1.0) } else { 0.0 }
     };
     let bending_shares = (0..pairs.values.len()).map(share).collect();
+    space.nodal(&mut pairs.vectors);
     Ok(Solution { space, pairs, bending_shares, edge: mean_edge(&mesh) })
 }
 
