@@ -81,6 +81,15 @@ pub(crate) fn singular(corners: &[Corner], size: f64, bending: bool, accuracy: f
     corners.iter().filter(|corner| Singularity::of(corner, size, bending, accuracy).is_some()).count()
 }
 
+/// The growth of edges per distance from corners with which the rings of triangles around all of them together change eigenvalues by no
+/// more than the relative `accuracy`, at most [`GROWTH`]. `size` is the edge length elsewhere (m), `each` the accuracy for which each
+/// corner is refined.
+pub(crate) fn growth(corners: &[Corner], size: f64, bending: bool, each: f64, accuracy: f64) -> f64 {
+    let refined = corners.iter().filter_map(|corner| Singularity::of(corner, size, bending, each));
+    let rings: f64 = refined.map(Singularity::rings).sum();
+    GROWTH * (accuracy / rings).powf(0.125).min(1.0)
+}
+
 /// The relative error of eigenvalues, due to singular parts at corners, that a comparison of two meshes
 /// does not show, since both miss nearly equal parts: where the smallest edges are at their least, or slow
 /// powers are not resolved at all; what rings of triangles around a corner miss, each longer by `growth`
@@ -95,16 +104,14 @@ pub(crate) fn unresolved(corners: &[Corner], size: f64, bending: bool, accuracy:
         let share = s.smallest_edge(accuracy);
         let hidden = share <= FLOOR || (share >= 1.0 && s.power < SLOW);
         let missed = s.strength * missed(s.power);
-        // Near a whole power the solution is nearly a polynomial, which elements hold.
-        let apart = (PI * s.power).sin().powi(2);
-        let rings = if share < 1.0 { GRADED * apart * (growth / GROWTH).powi(8) } else { 0.0 };
+        let rings = if share < 1.0 { s.rings() * (growth / GROWTH).powi(8) } else { 0.0 };
         let core = share.powf(2.0 * s.power);
         let left = match hidden {
             true => 1.0,
             false if share < 1.0 => LEFT,
             false => 0.0,
         };
-        missed * (rings + left * core)
+        rings + missed * left * core
     };
     corners.iter().map(of).sum()
 }
@@ -157,6 +164,12 @@ impl Singularity {
         }
         let power = if bending { exponent(angle, edges, most) } else { membrane(angle, edges, most) };
         power.is_finite().then_some(Self { power, strength })
+    }
+
+    /// The share of an eigenvalue that rings of triangles miss whose size grows by [`GROWTH`] per distance.
+    fn rings(self) -> f64 {
+        // Near a whole power the solution is nearly a polynomial, which elements hold.
+        self.strength * missed(self.power) * GRADED * (PI * self.power).sin().powi(2)
     }
 
     /// The smallest edge for a given accuracy, see [`smallest_edge`].

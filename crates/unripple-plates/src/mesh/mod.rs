@@ -17,7 +17,7 @@ mod williams;
 
 use unripple_core::{Edge, Point, Side};
 
-pub(crate) use corner::{Corner, corners, singular, unresolved};
+pub(crate) use corner::{Corner, corners, growth, singular, unresolved};
 pub(crate) use field::GROWTH;
 pub(crate) use sizing::Sizing;
 
