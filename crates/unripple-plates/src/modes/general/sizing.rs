@@ -45,8 +45,8 @@ const UNKNOWNS: f64 = 9.0;
 const LAYER: f64 = 4.0;
 
 /// Longest edge under a disc at an accuracy of 1e-3, relative to the disc's radius: the rim is divided into
-/// a dozen edges. With twice this value, into six, and a refinement follows.
-const IN_DISC: f64 = 0.5;
+/// eighteen edges. With 0.5, the first meshes tell no rate, and a fourth follows.
+const IN_DISC: f64 = 0.35;
 
 /// Number of places along each side of the bounding box at which the sheet's properties are sampled. Variation within a
 /// thirty-second of a side may be missed, and costs a refinement.
