@@ -9,12 +9,16 @@ use super::corner::Corner;
 use super::element::{Element, Middle, Shares};
 use super::topology::Topology;
 use crate::mesh::Mesh;
-use std::collections::VecDeque;
+use unripple_core::Point;
 use unripple_linalg::Mat;
 
 /// Edges shorter than this share of the sheet's width are taken relative to their corner: those that are longer leave rounding errors of
 /// 1e-10. With twice this value, more unknowns depend on each corner.
 const SHORT: f64 = 1e-3;
+
+/// Distance from a corner up to which unknowns are relative to it, in multiples of the longest short edge: edges around a corner grow by a
+/// tenth of the distance or more. Farther away short edges have another reason, as boundary layers, which may be as long as the rim.
+const REACH: f64 = 20.0;
 
 /// An unknown relative to a corner.
 #[derive(Clone, Copy, Debug)]
@@ -134,39 +138,46 @@ impl Relative {
     }
 }
 
-/// For each vertex the free corner that it is relative to: the nearest along edges, all of whose vertices have short edges.
+/// For each vertex the free corner that it is relative to: one for all vertices that short edges join, however many corners they have.
 fn owners(mesh: &Mesh, topology: &Topology, corners: &[Corner]) -> Vec<Option<usize>> {
     let mut owners = vec![None; mesh.vertices.len()];
-    let ends = mesh.vertices.iter().map(|vertex| vertex.at);
-    let [low, high] = ends.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], p| {
-        [[low[0].min(p.x), low[1].min(p.y)], [high[0].max(p.x), high[1].max(p.y)]]
-    });
-    let width = (high[0] - low[0]).max(high[1] - low[1]);
+    let width = width(mesh);
     let short = |v: usize| topology.lengths[v] < SHORT * width && corners[v].is_whole();
     let meets = |v: usize| {
         let sides = topology.rim(v).map(|ends| ends.map(|e| mesh.edges[e].span.map(|span| span.side)));
         sides.is_some_and(|[leaves, arrives]| leaves != arrives)
     };
-    let mut next: VecDeque<usize> = (0..mesh.vertices.len()).filter(|v| short(*v) && meets(*v)).collect();
-    if next.is_empty() {
+    let sources: Vec<usize> = (0..mesh.vertices.len()).filter(|v| short(*v) && meets(*v)).collect();
+    if sources.is_empty() {
         return owners;
     }
-    next.iter().for_each(|v| owners[*v] = Some(*v));
     let mut beside = vec![Vec::new(); mesh.vertices.len()];
     for edge in &mesh.edges {
         let [a, b] = edge.ends;
         beside[a].push(b);
         beside[b].push(a);
     }
-    while let Some(v) = next.pop_front() {
-        for to in &beside[v] {
-            if owners[*to].is_none() && short(*to) {
-                owners[*to] = owners[v];
-                next.push_back(*to);
+    for source in sources {
+        let mut next = if owners[source].is_none() { vec![source] } else { Vec::new() };
+        let near = |v: usize| mesh.vertices[v].at.distance(mesh.vertices[source].at) < REACH * SHORT * width;
+        while let Some(v) = next.pop() {
+            if owners[v].is_none() && short(v) && near(v) {
+                owners[v] = Some(source);
+                next.extend(&beside[v]);
             }
         }
     }
     owners
+}
+
+/// The larger side of a mesh's bounding box, in metres.
+fn width(mesh: &Mesh) -> f64 {
+    let spread = |of: fn(Point) -> f64| {
+        let places = mesh.vertices.iter().map(|vertex| of(vertex.at));
+        let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        high - low
+    };
+    spread(|p| p.x).max(spread(|p| p.y))
 }
 
 /// The matrix Tᵀ A T between `count` unknowns, given the rows of T as places and values.
