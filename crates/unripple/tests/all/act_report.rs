@@ -150,8 +150,11 @@ fn reports_of_strokes_and_waveforms_begin_with_them() {
     let followed = Followed { figures, start_s: 0.03, asked_peak_m: 1e-6, lost: 0.0 };
     let stroked = Report { stroke: Some(stroke), ..focus.clone() };
     let waved = Report { waveforms: vec![followed], ..focus };
+    // The level is a velocity, too, and must not read like the speed that was asked for.
+    let head = "stroke: 41 pulses in 200.0 ms, asked to move the surface at 10.000 mm/s at the focus (the level, not the speed along the \
+                path); level along the path -0.26 to 0.25 dB";
     for (report, first, then) in [
-        (stroked, "stroke: 41 pulses in 200.0 ms", "pulse in the middle of the path, (62.00, 90.00) mm"),
+        (stroked, head, "pulse in the middle of the path, (62.00, 90.00) mm"),
         (waved, "waveform (62.00, 90.00) mm: 1.000 µm asked, gain 0.9990", "dB above threshold"),
     ] {
         for text in [report.text(), report.markdown()] {

@@ -79,8 +79,8 @@ impl Stroked {
     fn line(&self) -> String {
         let ([low, high], [least, most]) = (self.level_range_db, self.peak_range_db);
         format!(
-            "stroke: {} pulses in {:.1} ms, {:.3} mm/s asked, level along the path {low:.2} to {high:.2} dB, largest velocity in \
-             passing {least:.2} to {most:.2} dB",
+            "stroke: {} pulses in {:.1} ms, asked to move the surface at {:.3} mm/s at the focus (the level, not the speed along the path); \
+             level along the path {low:.2} to {high:.2} dB, largest velocity in passing {least:.2} to {most:.2} dB",
             self.pulses,
             self.duration_s * 1e3,
             self.asked_m_s * 1e3
