@@ -204,3 +204,51 @@ fn side_by_side(left: Panel, right: Panel, description: &str) -> Figure {
         ..Figure::default()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use unripple::field::{Aim, Field};
+    use unripple::focus::{Focuser, Options, Target};
+    use unripple::physics::{ResponseOptions, design::papers_surface, responses};
+
+    /// The paper's film up to 1 kHz, driven to focus at one place, as measured.
+    fn measured(at: Point) -> (Surface, Measured) {
+        let mut surface = papers_surface();
+        surface.emission.band[1] = 1000.0;
+        let plant = responses(&surface, &ResponseOptions::default()).unwrap();
+        let options = Options { window: 0.03, ..Options::default() };
+        let focused = Focuser::new(&plant, &options).unwrap().focus(&[Target::at(at)]).unwrap();
+        let drive = focused.drive.as_emitted();
+        let instant = focused.timing[0].instant as f64 / drive.rate();
+        let field = Field::new(&plant, &drive, 8.0).unwrap();
+        (surface, field.measure(&[Aim::at(at, instant)], None).unwrap())
+    }
+
+    /// The circles on a panel that bear a name: places and names.
+    fn circles(panel: &Panel) -> Vec<([f64; 2], String)> {
+        let Panel::Map(map) = panel else { panic!("a map") };
+        let named = |m: &&Marker| matches!(m.symbol, Symbol::Circle(_)) && !m.name.is_empty();
+        map.markers.iter().filter(named).map(|m| (m.at, m.name.clone())).collect()
+    }
+
+    #[test]
+    fn a_circle_marks_the_largest_velocity_elsewhere() {
+        let at = Point::from_mm(62.0, 90.0);
+        let (surface, measured) = measured(at);
+        let scene = Scene::new(&surface, &[vec![at]], measured.focal_radius_m);
+        let figure = peaks(&scene, &measured);
+        // From the map itself: the largest of its values farther from the target than the focal disc reaches.
+        let maps = &measured.maps;
+        let beyond = maps.points.iter().zip(&maps.peak_velocity);
+        let beyond = beyond.filter(|(place, _)| place.distance(at) > measured.focal_radius_m);
+        let (place, largest) = beyond.max_by(|a, b| a.1.total_cmp(b.1)).unwrap();
+        let share = 100.0 * f64::from(*largest) / measured.targets[0].peak_velocity_m_s.abs();
+        let expected = ([place.x, place.y], format!("{share:.0} %"));
+        assert!((1.0..100.0).contains(&share) && place.distance(at) > 0.02, "{expected:?}");
+        assert_eq!(circles(&figure.panels[0]), std::slice::from_ref(&expected));
+        assert_eq!(circles(&figure.panels[1]), [], "of displacement, nothing is said");
+        let drawn = figure.draw().unwrap();
+        assert!(drawn.svg().contains(&format!(">{}</text>", expected.1)), "{}", expected.1);
+    }
+}
