@@ -78,6 +78,13 @@ fn a_table_needs_no_folder() {
     let out = run(&["compare", &file, "--at", "62,90", "--window-ms", "20"]);
     let text = String::from_utf8(out.stdout).unwrap();
     assert!(text.contains("concentrate") && text.contains("energy for peak"), "{text}");
+    // What is felt comes first, and beside time reversal the method that is made for it.
+    let lines: Vec<&str> = text.lines().skip_while(|line| !line.starts_with("method ")).take(3).collect();
+    let headings: Vec<&str> = lines[0].split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
+    let first =
+        ["method", "felt dB", "felt contrast", "felt background", "felt worst", "drive for felt", "contrast"];
+    assert_eq!(headings[..first.len()], first);
+    assert!(lines[1].starts_with("time-reversal ") && lines[2].starts_with("felt "), "{text}");
     assert!(refused(&["compare", &file], 2).contains("targets"));
     let errors =
         refused(&["focus", &file, "--at", "62,90", "--method", "inverse", "--strength", "1.5", "-o", "x"], 2);
@@ -235,7 +242,7 @@ fn a_surface_without_the_target_fails_alone() {
     assert!(why.starts_with("target 1: (62.0000, 120.0000) mm is outside the surface"), "{why}");
     let page = std::fs::read_to_string(format!("{out}/report.md")).unwrap();
     assert!(page.contains(&format!("\n**A small film** failed: {why}\n")), "{page}");
-    assert!(page.contains("| surface | method | window ms | modes | contrast |"), "{page}");
+    assert!(page.contains("| surface | method | window ms | modes | felt dB |"), "{page}");
     assert!(page.contains("| A film | concentrate | 20.0 |") && page.contains("](compare.png)"), "{page}");
     let drawn = std::fs::read_to_string(format!("{out}/compare.svg")).unwrap();
     assert!(drawn.contains("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"86mm\""));

@@ -5,6 +5,7 @@ use super::row::Row;
 use std::fmt::Write;
 use unripple::act::{Level, Note};
 use unripple::field::TargetFigures;
+use unripple::focus::Method;
 use unripple::physics::design::milliseconds;
 
 /// Headings of the first columns: the method; with several surfaces also the surface, its window and its
@@ -12,8 +13,14 @@ use unripple::physics::design::milliseconds;
 const METHOD: [&str; 1] = ["method"];
 const SURFACE: [&str; 4] = ["surface", "method", "window ms", "modes"];
 
-/// Headings of the figures, in the order of `figures`.
+/// Headings of the figures, in the order of `figures`: what a fingertip feels, what the surface does, what
+/// that takes.
 const FIGURES: [&str; 15] = [
+    "felt dB",
+    "felt contrast",
+    "felt background",
+    "felt worst",
+    "drive for felt",
     "contrast",
     "background",
     "worst spot",
@@ -22,11 +29,6 @@ const FIGURES: [&str; 15] = [
     "energy for peak",
     "power mW",
     "peak at limit",
-    "felt dB",
-    "felt contrast",
-    "felt background",
-    "felt worst",
-    "drive for felt",
     "plan ms",
     "drive ms",
 ];
@@ -86,8 +88,19 @@ impl Table<'_> {
         names.iter().chain(&FIGURES).map(|heading| (*heading).to_owned()).collect()
     }
 
+    /// The rows of each surface: time reversal, to which the others are related, then the method made for
+    /// what is felt, then all others.
     fn rows(&self) -> impl Iterator<Item = (&Compared, &Row)> {
-        self.surfaces.iter().flat_map(|on| on.methods.iter().map(move |row| (on, row)))
+        let place = |row: &&Row| match row.method {
+            method if method == Method::TimeReversal.name() => 0,
+            method if method == Method::Felt.name() => 1,
+            _ => 2,
+        };
+        self.surfaces.iter().flat_map(move |on| {
+            let mut rows: Vec<&Row> = on.methods.iter().collect();
+            rows.sort_by_key(place);
+            rows.into_iter().map(move |row| (on, row))
+        })
     }
 
     /// The cells of each row, in the order of the headings.
@@ -160,6 +173,11 @@ fn figures(row: &Row) -> [String; 15] {
     let target = row.targets.first();
     let of = |figure: fn(&TargetFigures) -> Option<f64>| target.and_then(figure);
     [
+        number(of(|t| t.felt_level_db), 1),
+        number(of(|t| t.felt_contrast_db), 1),
+        number(of(|t| t.felt_background_db), 1),
+        number(of(|t| t.felt_worst_spot_db), 1),
+        format!("{:.1}", row.drive_for_level_db),
         number(of(|t| t.contrast), 1),
         number(of(|t| t.background_contrast), 1),
         number(of(|t| t.worst_spot), 2),
@@ -168,11 +186,6 @@ fn figures(row: &Row) -> [String; 15] {
         format!("{:.2}", row.energy_for_peak),
         row.mean_mechanical_power_w.map_or("-".into(), |watts| three(1e3 * watts)),
         three(row.peak_at_limit),
-        number(of(|t| t.felt_level_db), 1),
-        number(of(|t| t.felt_contrast_db), 1),
-        number(of(|t| t.felt_background_db), 1),
-        number(of(|t| t.felt_worst_spot_db), 1),
-        format!("{:.1}", row.drive_for_level_db),
         format!("{:.1}", row.plan_s * 1e3),
         format!("{:.2}", row.drive_s * 1e3),
     ]
