@@ -2,8 +2,9 @@
 //!
 //! Edges at a re-entrant free corner may be a millionth of the sheet's width w. Triangles of size h that move as a rigid body store no
 //! energy, but between nodal values that is a sum of terms D u²/h² that cancel up to rounding errors ε, which are ε (w/h)² of the energy
-//! of the lowest modes: 1e-4. So around such a corner the unknowns are what nodal values have beyond the linear function with the
-//! displacement and slope of the corner, and the entries of rigid motion are set to zero, as they are.
+//! of the lowest modes: 1e-4. So around corners where the sheet can move and edges are short, the unknowns are what nodal values have
+//! beyond the linear function with the displacement and slope of the corner. The entries of rigid motion are set to zero, which they are
+//! but for rounding.
 
 use super::corner::Corner;
 use super::element::{Element, Middle, Shares};
@@ -12,13 +13,19 @@ use crate::mesh::Mesh;
 use unripple_core::Point;
 use unripple_linalg::Mat;
 
-/// Edges shorter than this share of the sheet's width are taken relative to their corner: those that are longer leave rounding errors of
-/// 1e-10. With twice this value, more unknowns depend on each corner.
+/// Vertices whose edges are on average shorter than this share of the sheet's width are relative to a corner: longer edges leave rounding
+/// errors of 1e-10. With twice this value, more unknowns depend on each corner.
 const SHORT: f64 = 1e-3;
 
-/// Distance from a corner up to which unknowns are relative to it, in multiples of the longest short edge: edges around a corner grow by a
-/// tenth of the distance or more. Farther away short edges have another reason, as boundary layers, which may be as long as the rim.
+/// Distance from a corner up to which unknowns are relative to it, in multiples of [`SHORT`]: edges grow by a tenth of the distance or more,
+/// so that they are short up to ten. Farther away short edges have another reason, such as boundary layers, which may be as long as the
+/// rim.
 const REACH: f64 = 20.0;
+
+/// Distance of corners from each other, as a share of the sheet's width, below which they have one rigid motion: farther apart, triangles
+/// between them that are relative to two corners are long enough. With a tenth of this value, those leave rounding errors of 1e-7; with
+/// ten times, those at the corner that bends away from the other do.
+const CLOSE: f64 = 1e-3;
 
 /// An unknown relative to a corner.
 #[derive(Clone, Copy, Debug)]
@@ -138,36 +145,35 @@ impl Relative {
     }
 }
 
-/// For each vertex the free corner that it is relative to: one for all vertices that short edges join, however many corners they have.
+/// For each vertex the free corner that it is relative to: the nearest, or of corners close together the first.
 fn owners(mesh: &Mesh, topology: &Topology, corners: &[Corner]) -> Vec<Option<usize>> {
-    let mut owners = vec![None; mesh.vertices.len()];
+    let count = mesh.vertices.len();
     let width = width(mesh);
     let short = |v: usize| topology.lengths[v] < SHORT * width && corners[v].is_whole();
-    let meets = |v: usize| {
-        let sides = topology.rim(v).map(|ends| ends.map(|e| mesh.edges[e].span.map(|span| span.side)));
-        sides.is_some_and(|[leaves, arrives]| leaves != arrives)
+    let starts = |v: usize| {
+        let leaves = topology.rim(v).and_then(|[leaves, _]| mesh.edges[leaves].span);
+        leaves.is_some_and(|span| span.from == 0.0)
     };
-    let sources: Vec<usize> = (0..mesh.vertices.len()).filter(|v| short(*v) && meets(*v)).collect();
+    let sources: Vec<usize> = (0..count).filter(|v| short(*v) && starts(*v)).collect();
     if sources.is_empty() {
-        return owners;
+        return vec![None; count];
     }
-    let mut beside = vec![Vec::new(); mesh.vertices.len()];
-    for edge in &mesh.edges {
-        let [a, b] = edge.ends;
-        beside[a].push(b);
-        beside[b].push(a);
-    }
-    for source in sources {
-        let mut next = if owners[source].is_none() { vec![source] } else { Vec::new() };
-        let near = |v: usize| mesh.vertices[v].at.distance(mesh.vertices[source].at) < REACH * SHORT * width;
-        while let Some(v) = next.pop() {
-            if owners[v].is_none() && short(v) && near(v) {
-                owners[v] = Some(source);
-                next.extend(&beside[v]);
+    let between = |a: usize, b: usize| mesh.vertices[a].at.distance(mesh.vertices[b].at);
+    let mut firsts = sources.clone();
+    for i in 1..sources.len() {
+        for j in 0..i {
+            if between(sources[i], sources[j]) < CLOSE * width {
+                let (old, new) = (firsts[i].max(firsts[j]), firsts[i].min(firsts[j]));
+                firsts.iter_mut().filter(|first| **first == old).for_each(|first| *first = new);
             }
         }
     }
-    owners
+    let owner = |v: usize| {
+        let near = sources.iter().zip(&firsts).map(|(source, first)| (between(v, *source), *first));
+        let (distance, first) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (short(v) && distance < REACH * SHORT * width).then_some(first)
+    };
+    (0..count).map(owner).collect()
 }
 
 /// The larger side of a mesh's bounding box, in metres.
