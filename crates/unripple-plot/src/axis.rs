@@ -128,7 +128,7 @@ impl Ruler {
     /// Fixes range and ticks of an axis that is `length` points long for data values, with tick labels of
     /// `size` points.
     ///
-    /// Errors when an end is not finite, or not positive on a logarithmic axis.
+    /// Errors when an end is not finite, or not positive on a logarithmic axis, or when the ends are not apart.
     pub fn new(
         axis: &Axis,
         data: impl Iterator<Item = f64>,
@@ -287,7 +287,8 @@ fn range(axis: &Axis, data: impl Iterator<Item = f64>, padding: Padding) -> Resu
     };
     let given = |end: Option<f64>| end.map(|end| end * axis.multiplier);
     let (low, high) = (given(axis.low).unwrap_or(low), given(axis.high).unwrap_or(high));
-    check(&name, "a high end above the low one", high, |high| high > low && (log || high - low >= SMALLEST))?;
+    check(&name, "a high end above the low one", high, |high| high > low)?;
+    check(&name, "a high end at least 1e-100 above the low one", high, |high| log || high - low >= SMALLEST)?;
     Ok((low, high))
 }
 

@@ -29,7 +29,7 @@ fn nice_step(low: f64, high: f64, most: usize) -> Option<f64> {
         .find(|&step| step > 0.0 && count(step, low, high) <= most as f64)
 }
 
-/// Least distance of the ends of an axis with ticks: below, steps are denormal numbers or zero.
+/// Least distance of the ends of an axis with ticks: far below, steps are denormal numbers or zero.
 const CLOSEST: f64 = 1e-300;
 
 fn count(step: f64, low: f64, high: f64) -> f64 {
