@@ -180,7 +180,8 @@ impl Acts {
 fn struck(plant: &Plant, channel: &Channel, rate: f64) -> f64 {
     let coil = channel.load.as_ref().and_then(|load| load.circuit).filter(|_| channel.voltage);
     let gain = match coil {
-        // The current rises within L/R: its mean over the first sample, 1 - (1 - e^-θ)/θ of V/R, is θ/2 of it where that is slow.
+        // The current approaches V/R with the time constant L/R. Its mean over the first sample is 1 - (1 - e^-θ)/θ of that with
+        // θ = R/(L·rate), about θ/2 of it in a slow coil.
         Some(coil) => {
             let theta = coil.resistance / (coil.inductance * rate);
             let risen = if theta < 1e-3 { theta / 2.0 } else { 1.0 + (-theta).exp_m1() / theta };
