@@ -87,7 +87,7 @@ pub(crate) fn singular(corners: &[Corner], size: f64, bending: bool, accuracy: f
 pub(crate) fn growth(corners: &[Corner], size: f64, bending: bool, each: f64, accuracy: f64) -> f64 {
     let refined = corners.iter().filter_map(|corner| Singularity::of(corner, size, bending, each));
     let rings: f64 = refined.map(Singularity::rings).sum();
-    GROWTH * (accuracy / rings).powf(0.125).min(1.0)
+    if rings > accuracy { GROWTH * (accuracy / rings).powf(0.125) } else { GROWTH }
 }
 
 /// The relative error of eigenvalues, due to singular parts at corners, that a comparison of two meshes
