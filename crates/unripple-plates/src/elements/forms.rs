@@ -50,9 +50,9 @@ impl Space {
                 for (_, weights, mass) in masses.iter().filter(|(e, ..)| *e == batch * BATCH + i) {
                     add_point(&mut share[2], weights, *mass);
                 }
-                let [mut stiffness, bending, mass] = self.relative.between(element, share);
+                let (unknowns, [mut stiffness, bending, mass]) = self.relative.between(element, share);
                 stiffness.iter_mut().zip(&bending).for_each(|(sum, b)| *sum += b);
-                (self.relative.among(element), [stiffness, bending, mass])
+                (unknowns, [stiffness, bending, mass])
             });
             for (unknowns, share) in shares.collect::<Vec<(Vec<usize>, Shares)>>() {
                 let (starts, rows) = (symbolic.col_ptr(), symbolic.row_idx());

@@ -11,6 +11,7 @@ use super::element::{Element, Middle, Shares};
 use super::topology::Topology;
 use crate::mesh::Mesh;
 use unripple_core::Point;
+use unripple_core::plane::Bounds;
 use unripple_linalg::Mat;
 
 /// Vertices whose edges are on average shorter than this share of the sheet's width are relative to a corner: longer edges leave rounding
@@ -97,13 +98,13 @@ impl Relative {
         all
     }
 
-    /// The matrices of an element between nodal values as matrices between unknowns, in the order of [`Relative::among`].
-    pub(super) fn between(&self, element: &Element, matrices: Shares) -> Shares {
+    /// The matrices of an element between nodal values as matrices between unknowns, and these unknowns as by [`Relative::among`].
+    pub(super) fn between(&self, element: &Element, matrices: Shares) -> (Vec<usize>, Shares) {
+        let unknowns = self.among(element);
         let own = &element.unknowns;
         if own.iter().all(|unknown| self.of(*unknown).is_none()) {
-            return matrices;
+            return (unknowns, matrices);
         }
-        let unknowns = self.among(element);
         let place = |unknown: usize| unknowns.iter().position(|other| *other == unknown).unwrap_or_default();
         let row = |(i, unknown): (usize, &usize)| {
             let mut row = vec![(i, 1.0)];
@@ -122,7 +123,7 @@ impl Relative {
                     .for_each(|i| (bending[i * count + still], bending[still * count + i]) = (0.0, 0.0));
             }
         }
-        [rest, bending, mass]
+        (unknowns, [rest, bending, mass])
     }
 
     /// The corner to which all of an element is relative: then the element follows it as a rigid body.
@@ -148,7 +149,9 @@ impl Relative {
 /// For each vertex the free corner that it is relative to: the nearest, or of corners close together the first.
 fn owners(mesh: &Mesh, topology: &Topology, corners: &[Corner]) -> Vec<Option<usize>> {
     let count = mesh.vertices.len();
-    let width = width(mesh);
+    let places: Vec<Point> = mesh.vertices.iter().map(|vertex| vertex.at).collect();
+    let Bounds { low, high } = Bounds::around(&places, 0.0);
+    let width = (high.x - low.x).max(high.y - low.y);
     let short = |v: usize| topology.lengths[v] < SHORT * width && corners[v].is_whole();
     let starts = |v: usize| {
         let leaves = topology.rim(v).and_then(|[leaves, _]| mesh.edges[leaves].span);
@@ -158,7 +161,7 @@ fn owners(mesh: &Mesh, topology: &Topology, corners: &[Corner]) -> Vec<Option<us
     if sources.is_empty() {
         return vec![None; count];
     }
-    let between = |a: usize, b: usize| mesh.vertices[a].at.distance(mesh.vertices[b].at);
+    let between = |a: usize, b: usize| places[a].distance(places[b]);
     let mut firsts = sources.clone();
     for i in 1..sources.len() {
         for j in 0..i {
@@ -169,21 +172,14 @@ fn owners(mesh: &Mesh, topology: &Topology, corners: &[Corner]) -> Vec<Option<us
         }
     }
     let owner = |v: usize| {
+        if !short(v) {
+            return None;
+        }
         let near = sources.iter().zip(&firsts).map(|(source, first)| (between(v, *source), *first));
         let (distance, first) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (short(v) && distance < REACH * SHORT * width).then_some(first)
+        (distance < REACH * SHORT * width).then_some(first)
     };
     (0..count).map(owner).collect()
-}
-
-/// The larger side of a mesh's bounding box, in metres.
-fn width(mesh: &Mesh) -> f64 {
-    let spread = |of: fn(Point) -> f64| {
-        let places = mesh.vertices.iter().map(|vertex| of(vertex.at));
-        let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-        high - low
-    };
-    spread(|p| p.x).max(spread(|p| p.y))
 }
 
 /// The matrix Tᵀ A T between `count` unknowns, given the rows of T as places and values.
