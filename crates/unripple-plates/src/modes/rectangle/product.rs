@@ -2,7 +2,6 @@
 
 use super::line::Class;
 use std::f64::consts::FRAC_1_SQRT_2;
-use unripple_linalg::{ColMut, Mat};
 
 /// A deflection with norm 1: a function along x times a function along y, alone or with its mirror image (x
 /// and y exchanged).
@@ -38,21 +37,6 @@ impl Product {
             return direct;
         }
         self.weight() * (direct + self.mirror * along_x[self.y] * along_y[self.x])
-    }
-
-    /// Values of the deflection at many points, from the values there of the functions along x and y
-    /// (points x functions).
-    pub(crate) fn fill(self, [along_x, along_y]: &[Mat<f64>; 2], values: ColMut<f64>) {
-        let direct = along_x.col(self.x).iter().zip(along_y.col(self.y).iter());
-        if self.mirror == 0.0 {
-            values.iter_mut().zip(direct).for_each(|(value, (x, y))| *value = x * y);
-            return;
-        }
-        let mirrored = along_x.col(self.y).iter().zip(along_y.col(self.x).iter());
-        let weight = self.weight();
-        for ((value, (x, y)), (a, b)) in values.iter_mut().zip(direct).zip(mirrored) {
-            *value = weight * (x * y + self.mirror * a * b);
-        }
     }
 }
 
