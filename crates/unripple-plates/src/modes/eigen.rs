@@ -1,25 +1,6 @@
-//! Symmetric eigenvalue problems, and matrices of nearly orthonormal columns.
+//! Products of matrices, and matrices of nearly orthonormal columns.
 
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply};
-
-/// The algorithm by which a symmetric matrix is decomposed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Method {
-    /// Divide and conquer: fast, but eigenvectors may have errors of 1e-5 where eigenvalues differ by
-    /// orders of magnitude.
-    Fast,
-    /// QR iteration: errors within machine precision of the largest eigenvalue.
-    Exact,
-}
-
-/// Eigenvalues, ascending, and orthonormal eigenvectors of a symmetric matrix given by its lower triangle; `None` if
-/// the iteration does not converge.
-pub(crate) fn symmetric(matrix: MatRef<f64>, method: Method) -> Option<(Vec<f64>, Mat<f64>)> {
-    match method {
-        Method::Fast => unripple_linalg::symmetric(matrix),
-        Method::Exact => unripple_linalg::exact_symmetric(matrix),
-    }
-}
 
 /// The product of two matrices.
 pub(crate) fn product(left: MatRef<f64>, right: MatRef<f64>, par: Par) -> Mat<f64> {

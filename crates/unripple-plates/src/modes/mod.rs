@@ -5,7 +5,6 @@ mod bounds;
 pub(crate) mod eigen;
 mod found;
 mod general;
-mod largest;
 mod legendre;
 mod memory;
 mod rectangle;

@@ -5,8 +5,10 @@ use super::error::{SpectrumError, indefinite};
 use super::panel::LANES;
 use super::pencil::Pencil;
 use super::plan::{STEP, factor_near};
-use crate::modes::eigen::{Method, product, symmetric};
-use unripple_linalg::{Cholesky, Mat, Par, Scale, norm, solve_lower_alone, solve_upper_alone};
+use crate::modes::eigen::product;
+use unripple_linalg::{
+    Cholesky, Mat, Par, Scale, exact_symmetric, norm, solve_lower_alone, solve_upper_alone,
+};
 
 /// The shift τ, relative to the bound: K may be singular, K + τM is not. Rounding errors are relative to
 /// λ + τ: with twice this value, they double for the lowest λ; much smaller, K + τM is nearly singular.
@@ -32,7 +34,7 @@ pub(super) fn all(pencil: &Pencil, top: f64) -> Result<EigenBlock, SpectrumError
     solve_lower_alone(stiff.lower(), ratio.as_mut());
     let inverse = product(ratio.transpose(), ratio.as_ref(), Par::Seq);
     let missed = |found| SpectrumError::Missed { top: bound.shift, expected: bound.below, found };
-    let (inverses, vectors) = symmetric(inverse.as_ref(), Method::Exact).ok_or_else(|| missed(0))?;
+    let (inverses, vectors) = exact_symmetric(inverse.as_ref()).ok_or_else(|| missed(0))?;
     let value = |i: usize| 1.0 / inverses[n - 1 - i] - shift;
     let found = (0..n).take_while(|i| value(*i) < bound.shift).count();
     if found != bound.below {

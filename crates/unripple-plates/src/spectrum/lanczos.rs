@@ -6,9 +6,8 @@ use super::panel::{LANES, NONE, Panel, Row, Square, project, subtract, transform
 use super::pencil::Pencil;
 use super::small::{Triangle, identity, product, transposed};
 use super::solve::solve;
-use crate::modes::eigen::{Method, symmetric};
 use unripple_core::Random;
-use unripple_linalg::Mat;
+use unripple_linalg::{Mat, exact_symmetric};
 
 /// Ratio of the smallest to the largest pivot of a panel's Gram matrix (columns scaled to one) below which
 /// another pass of orthogonalisation is needed: above it at most two digits are lost. Nearer to 1, panels
@@ -195,7 +194,7 @@ impl<'a> Lanczos<'a> {
                 }
             }
         }
-        let (inverses, vectors) = symmetric(between.as_ref(), Method::Exact)?;
+        let (inverses, vectors) = exact_symmetric(between.as_ref())?;
         let last = self.below.last()?;
         let residuals = vectors.col_iter().zip(&inverses).map(|(vector, inverse)| {
             let end = vector.subrows(count - LANES, LANES);

@@ -9,6 +9,7 @@ mod dense;
 mod error;
 mod factor;
 mod lanczos;
+mod lifted;
 mod memory;
 mod panel;
 mod pencil;
@@ -22,6 +23,7 @@ mod solve;
 #[cfg(test)]
 mod tests;
 pub(crate) use error::SpectrumError;
+pub(crate) use lifted::lifted_works;
 pub(crate) use memory::estimate_bytes;
 use pencil::Pencil;
 use plan::Plan;

@@ -2,9 +2,8 @@
 
 use crate::elements::{Forms, Space};
 use crate::fabric::Fabric;
-use crate::modes::eigen::{Method, symmetric};
 use unripple_core::*;
-use unripple_linalg::{Cholesky, Mat, Scale, solve_lower, solve_upper_alone};
+use unripple_linalg::{Cholesky, Mat, Scale, exact_symmetric, solve_lower, solve_upper_alone};
 
 /// A sheet of unit mass per area with a bending stiffness and a tension on a square outline of some size.
 pub(super) fn surface(size: f64, bending: f64, tension: f64, poisson: f64) -> Surface {
@@ -48,7 +47,7 @@ pub(super) fn modes(forms: &Forms, shift: f64) -> (Vec<f64>, Mat<f64>) {
     solve_lower(lower, left.as_mut());
     let mut both = left.transpose().to_owned();
     solve_lower(lower, both.as_mut());
-    let (values, mut vectors) = symmetric(both.as_ref(), Method::Fast).unwrap();
+    let (values, mut vectors) = exact_symmetric(both.as_ref()).unwrap();
     solve_upper_alone(lower.transpose(), vectors.as_mut());
     let squares: Vec<f64> = values.iter().rev().map(|v| 1.0 / v - shift).collect();
     let shapes = Mat::from_fn(n, n, |i, m| vectors[(i, n - 1 - m)] / values[n - 1 - m].sqrt());

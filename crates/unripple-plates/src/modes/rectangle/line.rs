@@ -1,15 +1,18 @@
 //! One-dimensional basis functions on a side, and their energy integrals.
 
 use super::super::legendre::gauss;
+use super::integrated::Integrated;
 use super::polynomials::Polynomials;
 use std::f64::consts::FRAC_PI_2;
 use unripple_core::Edge;
 use unripple_linalg::Mat;
 
-/// The basis along one direction of a rectangle, on ξ in [-1, 1]: orthonormal functions and the integrals of their energies.
+/// The basis along one direction of a rectangle, on ξ in [-1, 1]: functions and the integrals of their energies.
 #[derive(Clone, Debug)]
 pub(crate) struct Line {
     functions: Functions,
+    /// Mass integrals ∫f g, functions x functions: the identity where the functions are orthonormal.
+    pub(crate) mass: Mat<f64>,
     /// Slope integrals ∫f' g', functions x functions.
     pub(crate) slope: Mat<f64>,
     /// Curvature integrals ∫f'' g'', functions x functions.
@@ -25,38 +28,90 @@ pub(crate) struct Line {
 enum Functions {
     /// sin(nπ(1+ξ)/2), n = 1, 2, …: the exact shapes between two supported ends.
     Sines,
-    /// Polynomials that satisfy the essential boundary conditions.
+    /// Orthonormal polynomials that satisfy the essential boundary conditions.
     Polynomials(Polynomials),
+    /// The same polynomials, combined so that each couples with few others.
+    Integrated(Integrated),
 }
 
+/// Largest differences of index between functions without a value at an end that couple in mass, in slope, in curvature and in ∫f'' g; see
+/// [`Integrated`].
+const REACH: [usize; 4] = [4, 2, 0, 2];
+
 impl Line {
-    /// The first `count` functions for the edge conditions `low` at ξ = -1 and `high` at ξ = 1, for a sheet with bending stiffness.
+    /// The first `count` functions for the edge conditions `low` at ξ = -1 and `high` at ξ = 1, for a sheet with bending stiffness: sines
+    /// between two supported ends, elsewhere orthonormal polynomials.
     pub(crate) fn new(low: Edge, high: Edge, count: usize) -> Self {
         if (low, high) == (Edge::Supported, Edge::Supported) {
             return Self::sines(count);
         }
         let family = Polynomials::new(low, high, count);
-        let mut line = Self {
-            slope: Mat::zeros(count, count),
-            curvature: Mat::zeros(count, count),
-            mixed: Mat::zeros(count, count),
-            functions: Functions::Polynomials(family.clone()),
-            symmetric: low == high,
-        };
-        let symmetric = family.symmetric();
+        let mut line = Self::of(Functions::Polynomials(family), low == high, count);
+        line.mass = Mat::identity(count, count);
+        line
+    }
+
+    /// The same space in a basis in which most functions couple with few others: sines, or integrated Legendre polynomials with cubics.
+    pub(crate) fn with_cubics(low: Edge, high: Edge, count: usize) -> Self {
+        if (low, high) == (Edge::Supported, Edge::Supported) {
+            return Self::sines(count);
+        }
+        Self::of(Functions::Integrated(Integrated::with_cubics(low, high, count)), low == high, count)
+    }
+
+    /// The same, with functions instead of the cubics that fade from the ends, for wavenumbers up to `kappa` (on a line of length 2). The first
+    /// `counts[0]` of all `counts[1]` span the space of as many. `None` if rounding errors make them dependent.
+    pub(crate) fn fading(low: Edge, high: Edge, counts: [usize; 2], kappa: f64) -> Option<Self> {
+        if (low, high) == (Edge::Supported, Edge::Supported) {
+            return Some(Self::sines(counts[1]));
+        }
+        let family = Integrated::fading(low, high, counts, kappa)?;
+        Some(Self::of(Functions::Integrated(family), low == high, counts[1]))
+    }
+
+    /// These functions in terms of [`Line::with_cubics`], functions x functions.
+    pub(crate) fn in_cubics(&self) -> Mat<f64> {
+        match &self.functions {
+            Functions::Integrated(family) => family.in_cubics(),
+            _ => Mat::identity(self.count(), self.count()),
+        }
+    }
+
+    /// The integrals of polynomials by Gauss's rule.
+    fn of(functions: Functions, symmetric: bool, count: usize) -> Self {
+        let zeros = || Mat::zeros(count, count);
+        let (mass, slope, curvature, mixed) = (zeros(), zeros(), zeros(), zeros());
+        let mut line = Self { functions, mass, slope, curvature, mixed, symmetric };
         for (xi, weight) in gauss(count + 5) {
-            let jets = family.derivatives_at(xi);
+            let jets = line.derivatives_at(xi);
             for (j, g) in jets.iter().enumerate() {
                 // Opposite parities are left at an exact zero.
                 let first = if symmetric { j % 2 } else { 0 };
-                for (i, f) in jets.iter().enumerate().skip(first).step_by(1 + usize::from(symmetric)) {
-                    line.slope[(i, j)] += weight * f[1] * g[1];
-                    line.curvature[(i, j)] += weight * f[2] * g[2];
-                    line.mixed[(i, j)] += weight * f[2] * g[0];
+                for i in (first..count).step_by(1 + usize::from(symmetric)) {
+                    let (f, [mass, slope, curvature, mixed]) = (&jets[i], line.couple(i, j));
+                    line.mass[(i, j)] += if mass { weight * f[0] * g[0] } else { 0.0 };
+                    line.slope[(i, j)] += if slope { weight * f[1] * g[1] } else { 0.0 };
+                    line.curvature[(i, j)] += if curvature { weight * f[2] * g[2] } else { 0.0 };
+                    line.mixed[(i, j)] += if mixed { weight * f[2] * g[0] } else { 0.0 };
                 }
             }
         }
         line
+    }
+
+    /// Whether functions `i` and `j` may couple in mass, in slope, in curvature and in ∫f'' g: elsewhere rounding would leave a little.
+    fn couple(&self, i: usize, j: usize) -> [bool; 4] {
+        let with_all = self.coupling_with_all();
+        REACH.map(|reach| i < with_all || j < with_all || i.abs_diff(j) <= reach)
+    }
+
+    /// Number of functions, the first, that may couple with all others; the rest couples with indices up to 4 away.
+    pub(crate) fn coupling_with_all(&self) -> usize {
+        match &self.functions {
+            Functions::Sines => 0,
+            Functions::Polynomials(_) => usize::MAX,
+            Functions::Integrated(family) => family.at_ends(),
+        }
     }
 
     /// The first `count` sines, whose integrals are diagonal.
@@ -66,6 +121,7 @@ impl Line {
         };
         Self {
             functions: Functions::Sines,
+            mass: Mat::identity(count, count),
             slope: diagonal(&|k| k * k),
             curvature: diagonal(&|k| k.powi(4)),
             mixed: diagonal(&|k| -k * k),
@@ -78,7 +134,26 @@ impl Line {
         match &self.functions {
             Functions::Sines => Vec::new(),
             Functions::Polynomials(family) => family.derivatives_at(xi),
+            Functions::Integrated(family) => family.derivatives_at(xi),
         }
+    }
+
+    /// The functions of another basis in terms of these, which are orthonormal and span the same space: functions x functions of `other`.
+    pub(crate) fn coordinates(&self, other: &Self) -> Mat<f64> {
+        let count = self.count();
+        if self.exact() {
+            return Mat::identity(count, count);
+        }
+        let mut coordinates = Mat::zeros(count, count);
+        for (xi, weight) in gauss(count + 5) {
+            let (own, others) = (self.derivatives_at(xi), other.derivatives_at(xi));
+            for (j, g) in others.iter().enumerate() {
+                for (i, f) in own.iter().enumerate() {
+                    coordinates[(i, j)] += weight * f[0] * g[0];
+                }
+            }
+        }
+        coordinates
     }
 
     /// Number of functions n: the size of all integrals.
@@ -91,6 +166,10 @@ impl Line {
         match &self.functions {
             Functions::Sines => sines(FRAC_PI_2 * (1.0 + xi), values),
             Functions::Polynomials(family) => family.at(xi, values),
+            Functions::Integrated(family) => {
+                let jets = family.derivatives_at(xi);
+                values.iter_mut().zip(jets).for_each(|(value, jet)| *value = jet[0]);
+            }
         }
     }
 
@@ -99,6 +178,7 @@ impl Line {
         match &self.functions {
             Functions::Sines => None,
             Functions::Polynomials(family) => Some(family.degree(n)),
+            Functions::Integrated(family) => Some(family.degree(n)),
         }
     }
 
@@ -112,10 +192,8 @@ impl Line {
     pub(crate) fn classes(&self, count: usize) -> Vec<Class> {
         match &self.functions {
             Functions::Sines => (0..count).map(|n| Class { first: n, step: 1, end: n + 1 }).collect(),
-            Functions::Polynomials(_) if self.symmetric => {
-                (0..2).map(|n| Class { first: n, step: 2, end: count }).collect()
-            }
-            Functions::Polynomials(_) => vec![Class { first: 0, step: 1, end: count }],
+            _ if self.symmetric => (0..2).map(|n| Class { first: n, step: 2, end: count }).collect(),
+            _ => vec![Class { first: 0, step: 1, end: count }],
         }
     }
 }
@@ -140,6 +218,11 @@ impl Class {
     /// The index of the function in position `i` of the class.
     pub(crate) fn index(self, i: usize) -> usize {
         self.first + i * self.step
+    }
+
+    /// The position of an index that the class holds.
+    pub(crate) fn place(self, index: usize) -> usize {
+        (index - self.first) / self.step
     }
 
     /// The same class continued up to the index `end`.

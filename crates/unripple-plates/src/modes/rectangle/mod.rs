@@ -1,6 +1,7 @@
 //! Modes of rectangles: in closed form, or by the Rayleigh-Ritz method with products of one function along each side.
 
 mod adapt;
+mod integrated;
 mod line;
 mod order;
 mod plate;
@@ -10,6 +11,7 @@ mod product;
 mod readout;
 mod ritz;
 mod separable;
+mod sparse;
 mod springs;
 
 use super::found::Found;

@@ -9,7 +9,7 @@ use unripple_linalg::Mat;
 ///
 /// Twice the energy of u over ρ_s is
 /// R/ρ_s ∫u_x² + u_y² + D/ρ_s ∫u_xx² + u_yy² + 2ν u_xx u_yy + 2(1-ν) u_xy²,
-/// so its matrix in orthonormal functions has the squares of the angular frequencies for eigenvalues (Leissa, *Vibration
+/// so its matrix has the squares of the angular frequencies for eigenvalues relative to that of ∫u² (Leissa, *Vibration
 /// of Plates*, NASA SP-160, 1969).
 #[derive(Debug)]
 pub(crate) struct Plate {
@@ -29,11 +29,14 @@ pub(crate) struct Plate {
 
 impl Plate {
     /// One element of the energy matrix, in 1/s².
-    fn element(&self, p: Product, q: Product) -> f64 {
-        if p.mirror == 0.0 {
-            return self.direct(p, q);
-        }
-        2.0 * p.weight() * q.weight() * (self.direct(p, q) + p.mirror * self.direct(p, q.mirrored()))
+    pub(crate) fn element(&self, p: Product, q: Product) -> f64 {
+        mirrored(p, q, |p, q| self.direct(p, q))
+    }
+
+    /// One element of the mass matrix, which is the identity where the functions are orthonormal.
+    pub(crate) fn mass(&self, p: Product, q: Product) -> f64 {
+        let [x, y] = &self.lines;
+        mirrored(p, q, |p, q| x.mass[(p.x, q.x)] * y.mass[(p.y, q.y)])
     }
 
     /// One element of the energy matrix, for products without their mirror images.
@@ -42,13 +45,14 @@ impl Plate {
         let mut sum = self.cross()
             * (self.poisson * (x.mixed[(i, k)] * y.mixed[(l, j)] + x.mixed[(k, i)] * y.mixed[(j, l)])
                 + 2.0 * (1.0 - self.poisson) * x.slope[(i, k)] * y.slope[(j, l)]);
-        if j == l {
-            sum += self.tension[0] * x.slope[(i, k)] + self.bending[0] * x.curvature[(i, k)];
-            sum += self.springs[0].as_ref().map_or(0.0, |springs| springs.energy[(i, k)]);
+        let (along_x, along_y) = (x.mass[(i, k)], y.mass[(j, l)]);
+        if along_y != 0.0 {
+            sum += along_y * (self.tension[0] * x.slope[(i, k)] + self.bending[0] * x.curvature[(i, k)]);
+            sum += along_y * self.springs[0].as_ref().map_or(0.0, |springs| springs.energy[(i, k)]);
         }
-        if i == k {
-            sum += self.tension[1] * y.slope[(j, l)] + self.bending[1] * y.curvature[(j, l)];
-            sum += self.springs[1].as_ref().map_or(0.0, |springs| springs.energy[(j, l)]);
+        if along_x != 0.0 {
+            sum += along_x * (self.tension[1] * y.slope[(j, l)] + self.bending[1] * y.curvature[(j, l)]);
+            sum += along_x * self.springs[1].as_ref().map_or(0.0, |springs| springs.energy[(j, l)]);
         }
         sum
     }
@@ -111,8 +115,21 @@ impl Plate {
         f64::EPSILON * springs / square
     }
 
+    /// The products of one symmetry class that are rigid-body motions.
+    pub(crate) fn rigid_products(&self, symmetry: Symmetry) -> usize {
+        symmetry.products().filter(|p| self.is_rigid(*p)).count()
+    }
+
     /// The products of one symmetry class, without rigid-body motions.
     pub(crate) fn products(&self, symmetry: Symmetry) -> Vec<Product> {
         symmetry.products().filter(|p| !self.is_rigid(*p)).collect()
     }
+}
+
+/// An element of a symmetric matrix between two products, each with its mirror image, from those of products alone.
+fn mirrored(p: Product, q: Product, direct: impl Fn(Product, Product) -> f64) -> f64 {
+    if p.mirror == 0.0 {
+        return direct(p, q);
+    }
+    2.0 * p.weight() * q.weight() * (direct(p, q) + p.mirror * direct(p, q.mirrored()))
 }

@@ -45,11 +45,6 @@ impl Polynomials {
         n + (self.low + self.high) as usize
     }
 
-    /// Whether every polynomial is even or odd in ξ, so that there are two parity classes.
-    pub(crate) fn symmetric(&self) -> bool {
-        self.low == self.high
-    }
-
     /// Writes the values of all polynomials at ξ into `values`, of length [`Polynomials::count`].
     pub(crate) fn at(&self, xi: f64, values: &mut [f64]) {
         let mut value = self.first * (1.0 + xi).powi(self.low) * (1.0 - xi).powi(self.high);

@@ -1,6 +1,6 @@
 //! Symmetrised products of basis functions along x and y.
 
-use super::line::Class;
+use super::line::{Class, Line};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// A deflection with norm 1: a function along x times a function along y, alone or with its mirror image (x
@@ -58,6 +58,14 @@ impl Symmetry {
         (0..x.len())
             .flat_map(move |i| (0..y.len()).map(move |j| Product { x: x.index(i), y: y.index(j), mirror }))
             .filter(move |p| mirror == 0.0 || p.x < p.y || (p.x == p.y && mirror > 0.0))
+    }
+
+    /// The class with all functions of two lines that couple with its own.
+    pub(crate) fn further(self, lines: &[Line; 2]) -> Self {
+        let reach = |axis: usize, class: Class| {
+            if lines[axis].exact() { class } else { class.until(lines[axis].count()) }
+        };
+        Self { x: reach(0, self.x), y: reach(1, self.y), ..self }
     }
 
     /// All symmetry classes from the classes of functions along x and y, and for each whether its mirror

@@ -1,23 +1,22 @@
 //! The Rayleigh-Ritz eigenvalue problem, one symmetry class at a time.
 
-use super::super::eigen::{Method, orthonormalised, product, symmetric};
-use super::super::largest::largest;
-use super::line::Class;
+use super::super::eigen::{orthonormalised, product};
 use super::plate::Plate;
 use super::product::{Product, Symmetry};
-use unripple_linalg::{Accum, Cholesky, Mat, Par, multiply};
+use unripple_linalg::{Accum, Cholesky, Mat, Par, exact_symmetric, multiply};
 
 /// Modes are computed up to this share above the top ω², so that the modes that are left out are well
 /// separated from those that are kept. Halved, they are closer, and each iteration removes less of them.
-const ABOVE: f64 = 0.3;
+pub(crate) const ABOVE: f64 = 0.3;
 
 /// Number of times that the inverse is applied to the vectors (subspace iteration). Each time, rounding
 /// errors along vectors of high energy shrink by the ratio of that energy to the top energy; one more
 /// changes only the last digits.
 const SWEEPS: usize = 2;
 
-/// Number of products from which the lowest modes are sought by iteration: below, a full decomposition takes a fraction of a second.
-const LARGE: usize = 600;
+/// Number of products of a class from which its modes are those of a sparse problem: below, a full decomposition takes a fraction of a
+/// second.
+pub(crate) const LARGE: usize = 600;
 
 /// Modes of one symmetry class, in order of ascending frequency.
 #[derive(Debug)]
@@ -30,9 +29,11 @@ pub(crate) struct BlockModes {
     pub(crate) bending_shares: Vec<f64>,
     /// Coefficients, products x modes; columns are orthonormal.
     pub(crate) coefficients: Mat<f64>,
-    /// Largest relative error of a frequency, estimated; infinite if the products are too few to reach the
+    /// Largest relative error of a frequency for want of further products, estimated; infinite if the products are too few to reach the
     /// top frequency.
     pub(crate) error: f64,
+    /// A bound of the relative error of a squared frequency by rounding.
+    pub(crate) rounded: f64,
 }
 
 impl BlockModes {
@@ -44,6 +45,7 @@ impl BlockModes {
             bending_shares: self.bending_shares.clone(),
             coefficients: self.coefficients.clone(),
             error: self.error,
+            rounded: self.rounded,
         }
     }
 }
@@ -56,18 +58,15 @@ pub(crate) fn solve_block(plate: &Plate, symmetry: Symmetry, top: f64, par: Par)
     let products = plate.products(symmetry);
     let energy = plate.stiffness(&products, &products);
     let (squares, coefficients) = lowest(&energy, top, par)?;
-    let reach = |axis: usize, class: Class| {
-        if plate.lines[axis].exact() { class } else { class.until(plate.lines[axis].count()) }
-    };
-    let Symmetry { x, y, mirror } = symmetry;
-    let mut further = plate.products(Symmetry { x: reach(0, x), y: reach(1, y), mirror });
-    further.retain(|p| p.x >= x.end || p.y >= y.end);
+    let mut further = plate.products(symmetry.further(&plate.lines));
+    further.retain(|p| p.x >= symmetry.x.end || p.y >= symmetry.y.end);
     let error = missing(plate, &further, &products, (&squares, &coefficients), top, par);
     let inside = squares.partition_point(|v| *v <= top);
     let squares = squares[..inside].to_vec();
     let coefficients = coefficients.subcols(0, inside).to_owned();
     let bending_shares = bending_shares(plate, &products, &squares, &coefficients, par);
-    Some(BlockModes { products, squares, bending_shares, coefficients, error })
+    let rounded = squares.first().map_or(0.0, |lowest| plate.rounded(*lowest));
+    Some(BlockModes { products, squares, bending_shares, coefficients, error, rounded })
 }
 
 /// The share of bending in each mode's elastic energy: 1 minus that of tension and springs.
@@ -105,7 +104,7 @@ fn lowest(energy: &Mat<f64>, top: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)>
     let mut shifted = energy.clone();
     (0..n).for_each(|i| shifted[(i, i)] += top);
     let inverse = Cholesky::new(shifted.as_ref())?.inverse();
-    let (values, mut vectors) = at_least(&inverse, 1.0 / (top * (2.0 + ABOVE)), par)?;
+    let (values, mut vectors) = at_least(&inverse, 1.0 / (top * (2.0 + ABOVE)))?;
     for _ in 0..SWEEPS {
         let mut swept = product(inverse.as_ref(), vectors.as_ref(), par);
         for (column, value) in swept.col_iter_mut().zip(&values) {
@@ -115,19 +114,15 @@ fn lowest(energy: &Mat<f64>, top: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)>
     }
     let forces = product(energy.as_ref(), vectors.as_ref(), par);
     let between = product(vectors.transpose(), forces.as_ref(), par);
-    let (values, rotation) = symmetric(between.as_ref(), Method::Exact)?;
+    let (values, rotation) = exact_symmetric(between.as_ref())?;
     Some((values, product(vectors.as_ref(), rotation.as_ref(), par)))
 }
 
-/// The eigenvalues of at least `least` of a symmetric matrix, descending, and their vectors: by iteration where the matrix is large and
-/// they are few, else by a full decomposition. Any that iteration were to miss would show in [`missing`].
-fn at_least(matrix: &Mat<f64>, least: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)> {
-    let few = if matrix.nrows() < LARGE { None } else { largest(matrix.as_ref(), least, par) };
-    few.or_else(|| {
-        let (values, vectors) = symmetric((-matrix).as_ref(), Method::Fast)?;
-        let kept = values.partition_point(|value| -value >= least);
-        Some((values[..kept].iter().map(|value| -value).collect(), vectors.subcols(0, kept).to_owned()))
-    })
+/// The eigenvalues of at least `least` of a symmetric matrix, descending, and their vectors.
+fn at_least(matrix: &Mat<f64>, least: f64) -> Option<(Vec<f64>, Mat<f64>)> {
+    let (values, vectors) = exact_symmetric((-matrix).as_ref())?;
+    let kept = values.partition_point(|value| -value >= least);
+    Some((values[..kept].iter().map(|value| -value).collect(), vectors.subcols(0, kept).to_owned()))
 }
 
 /// Estimated largest relative error of a frequency: the change by a quarter more functions along each side, doubled to

@@ -1,9 +1,8 @@
 //! Property: random pencils against a dense solution.
 
 use super::*;
-use crate::modes::eigen::{Method, symmetric};
 use proptest::prelude::*;
-use unripple_linalg::{Cholesky, solve_lower_alone};
+use unripple_linalg::{Cholesky, exact_symmetric, solve_lower_alone};
 
 /// λ of all eigenpairs, ascending, by M = LLᵀ and L⁻¹KL⁻ᵀ.
 fn dense(stiffness: &Sparse, mass: &Sparse) -> Vec<f64> {
@@ -12,7 +11,7 @@ fn dense(stiffness: &Sparse, mass: &Sparse) -> Vec<f64> {
     solve_lower_alone(factor.lower(), ratio.as_mut());
     let mut turned = ratio.transpose().to_owned();
     solve_lower_alone(factor.lower(), turned.as_mut());
-    symmetric(turned.as_ref(), Method::Exact).expect("eigenvalues").0
+    exact_symmetric(turned.as_ref()).expect("eigenvalues").0
 }
 
 /// K = ΣbbᵀS and M = 1 + Σccᵀ over random sparse b and c, with units that differ by unknown.
