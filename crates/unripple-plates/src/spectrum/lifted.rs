@@ -6,10 +6,11 @@ use super::panel::{LANES, NONE};
 use super::pencil::Pencil;
 use super::plan::{STEP, factor_near};
 use super::solve::solve;
+use super::times::symmetric_times;
 use crate::modes::eigen::product;
 use rayon::prelude::*;
 use unripple_linalg::sparse::SparseColMatRef;
-use unripple_linalg::{Mat, MatRef, Par, exact_symmetric, sparse_times};
+use unripple_linalg::{Mat, MatRef, Par, exact_symmetric};
 
 /// The work fᵀ(K - σM + 2σMXXᵀM)⁻¹f of the residual f = Kx - λMx of each of the approximate eigenpairs (λ, X), for a shift σ of `top` or
 /// slightly more. `None` if that matrix is not positive definite: the pencil then has more eigenvalues below σ than these.
@@ -29,8 +30,8 @@ pub(crate) fn lifted_works(
     let pencil = Pencil::new(stiffness, mass)?;
     let factor = factor_near(&pencil, top, top * STEP)?;
     let count = values.len();
-    let weighed = sparse_times(mass, vectors);
-    let mut forces = sparse_times(stiffness, vectors);
+    let weighed = symmetric_times(mass, vectors);
+    let mut forces = symmetric_times(stiffness, vectors);
     for (m, value) in values.iter().enumerate() {
         forces.col_mut(m).iter_mut().zip(weighed.col(m).iter()).for_each(|(f, w)| *f -= value * w);
     }

@@ -19,6 +19,7 @@ mod shift_invert;
 mod slicing;
 mod small;
 mod solve;
+mod times;
 
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,7 @@ pub(crate) use memory::estimate_bytes;
 use pencil::Pencil;
 use plan::Plan;
 use rayon::prelude::*;
+pub(crate) use times::works;
 use unripple_core::Observed;
 use unripple_linalg::Mat;
 use unripple_linalg::sparse::SparseColMatRef;
