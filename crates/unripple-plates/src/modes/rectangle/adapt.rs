@@ -2,6 +2,7 @@
 
 use super::line::Line;
 use super::plate::Plate;
+use super::polynomials::order;
 use super::problem::Problem;
 use super::product::{Product, Symmetry};
 use super::ritz::{ABOVE, BlockModes, LARGE, solve_block};
@@ -13,7 +14,7 @@ use crate::modes::bounds::Bounds;
 use crate::modes::memory::{GIB, MEMORY};
 use crate::spectrum;
 use rayon::prelude::*;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, SQRT_2};
 use unripple_core::{Edge, Observed};
 use unripple_linalg::{Mat, Par};
 
@@ -32,6 +33,10 @@ const PATIENCE: usize = 2;
 /// Least step, as a share of the number of polynomials, once the law of the error is known: it flattens from step to step, and each falls
 /// a little short. With twice this value, the last round has up to twelve per cent more polynomials than needed.
 const LEAST_STEP: f64 = 0.08;
+
+/// Half of the phase k·side from which the number of polynomials is that of many waves. Below, a second round of a few more takes a fraction
+/// of a second; with twice this value, a second round of large problems takes most of the time.
+const MANY: f64 = 50.0;
 
 /// Number of functions for each further one by which the error is estimated. With twice this value, fewer are seen to be missing.
 const FURTHER: usize = 4;
@@ -105,7 +110,9 @@ fn step(accuracy: f64, counts: [usize; 2], error: f64, before: &mut Option<(f64,
 /// Initial number of functions along each side, for waves up to the wavenumber `k` (rad/m).
 ///
 /// Sines: all that can have an energy below the top, with the bending stiffness D(1-ν²), the least that a strip can have.
-/// Polynomials: about k·side/2 resolve the wave; beyond this number, the error falls by about e^1.5 for each.
+/// Polynomials: about k·side/2 resolve the wave; beyond this number, the error falls by about e^1.5 for each at first, and for many waves as
+/// the square of the coefficient of such a wave in Legendre polynomials, exp(-(4√2/3) δ^1.5 / √(k·side/2)) at the degree k·side/2 + δ
+/// (from Debye's expansion of the Bessel functions; DLMF 10.19).
 pub(super) fn first_counts(problem: &Problem, k: f64) -> [usize; 2] {
     let mut soft = problem.bounds.vacuum();
     let square = soft.omega(k);
@@ -116,8 +123,14 @@ pub(super) fn first_counts(problem: &Problem, k: f64) -> [usize; 2] {
             return (soft.wavenumber(square) * side / PI) as usize + 1;
         }
         let half = 0.5 * k * side;
+        let digits = -problem.bounds.accuracy.ln();
+        if half > MANY {
+            let zeros: i32 = problem.edges[axis].iter().map(|edge| order(*edge)).sum();
+            let beyond = (digits * 3.0 / (4.0 * SQRT_2)).powf(2.0 / 3.0) * half.cbrt();
+            return ((half + beyond - f64::from(zeros)).ceil() as usize).next_multiple_of(2);
+        }
         let free = f64::from(u8::from(problem.edges[axis].iter().any(|edge| edge.moves())));
-        let margin = 2.5 * free - half.cbrt() - problem.bounds.accuracy.ln() / 1.5;
+        let margin = 2.5 * free - half.cbrt() + digits / 1.5;
         ((half + margin).ceil().max(4.0) as usize).next_multiple_of(2)
     })
 }
