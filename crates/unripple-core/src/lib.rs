@@ -63,7 +63,9 @@ pub use point::Point;
 pub use pole::{Onset, Pole};
 pub use random::Random;
 pub use range::{OutOfRange, require};
-pub use responses::{Conditions, FOCAL_RADIUS, ModalResponses, Port, Responses, SampledResponses, Shapes};
+pub use responses::{
+    Conditions, FOCAL_RADIUS, Mixture, ModalResponses, Port, Responses, SampledResponses, Shapes,
+};
 pub use shape::Shape;
 pub use side::Side;
 pub use surface::{

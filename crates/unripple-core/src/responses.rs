@@ -2,7 +2,7 @@
 
 use crate::{CoreError, Outline, Point, Pole};
 use std::sync::Arc;
-use unripple_linalg::Mat;
+use unripple_linalg::{Mat, MatRef, product};
 
 /// Impulse responses from the actuators to points of the surface: as modes (poles and residues), or as samples.
 #[derive(Clone, Debug)]
@@ -83,6 +83,33 @@ pub trait Shapes: Send + Sync + std::fmt::Debug {
             row.iter().enumerate().for_each(|(m, w)| weights[(i, m)] = *w);
         }
         weights
+    }
+
+    /// The shapes of which these are combinations, where they are: at many points, reading those costs less. `None` otherwise.
+    fn mixture(&self) -> Option<Mixture<'_>> {
+        None
+    }
+}
+
+/// Mode shapes as combinations of others: shape m is the sum of `mixing[(b, columns[m])]` times shape b of `base`.
+#[derive(Clone, Copy, Debug)]
+pub struct Mixture<'a> {
+    /// The shapes that are combined.
+    pub base: &'a dyn Shapes,
+    /// Coefficients of the combinations, base shapes x columns.
+    pub mixing: MatRef<'a, f64>,
+    /// The column of each shape; several shapes may share one.
+    pub columns: &'a [usize],
+}
+
+impl Mixture<'_> {
+    /// The motion of the base shapes (base shapes x samples) that is equal to a `motion` of the combined ones (shapes x samples).
+    pub fn of_base(&self, motion: MatRef<'_, f64>) -> Mat<f64> {
+        let mut joined = Mat::zeros(self.mixing.ncols(), motion.ncols());
+        for (m, column) in self.columns.iter().enumerate() {
+            (0..motion.ncols()).for_each(|i| joined[(*column, i)] += motion[(m, i)]);
+        }
+        product(self.mixing, joined.as_ref())
     }
 }
 

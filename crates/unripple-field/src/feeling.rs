@@ -2,10 +2,11 @@
 
 use crate::modal::{ModalField, STATES, add_to};
 use crate::motion::Motion;
+use crate::reading::states;
 use crate::source::{Passage, Tally, Weighed};
 use rayon::prelude::*;
 use std::ops::Range;
-use unripple_core::Observed;
+use unripple_core::{Mixture, Observed};
 use unripple_linalg::{Mat, product};
 
 /// Number of values of filtered modes in memory at once, 128 MiB of them. With twice this value, twice the
@@ -39,13 +40,13 @@ impl<'a> Feeling<'a> {
             *own = (0..weights.ncols()).map(largest).collect();
         });
         let most = |m: usize| own.iter().map(|chunk: &Vec<f32>| f64::from(chunk[m])).fold(0.0, f64::max);
-        Self { field, passage, reach: (0..field.modes()).map(most).collect() }
+        Self { field, passage, reach: (0..field.read_modes()).map(most).collect() }
     }
 
     /// Computes the threshold-weighted displacement at every point, in units of the threshold.
     pub fn weighed(&self) -> Weighed {
         let span = &self.passage.span;
-        let stride = (HELD / self.field.modes().max(1)).max(1);
+        let stride = (HELD / self.field.read_modes().max(1)).max(1);
         let chunks = self.field.points().chunks(self.field.points_at_once());
         let mut tallies: Vec<Tally> = chunks.map(|points| Tally::zeros(points.len())).collect();
         let mut snapshots = vec![Vec::new(); self.passage.instants.len()];
@@ -88,7 +89,7 @@ impl<'a> Feeling<'a> {
     /// Threshold-weighted displacement of every mode, over part of the span.
     fn block(&self, part: &Range<usize>) -> Block {
         let Passage { taken, span, weighting, .. } = self.passage;
-        let modes = self.field.modes();
+        let modes = self.field.read_modes();
         let together = (STATES / taken.len().max(1)).max(1);
         let mut block = Block { rows: Vec::with_capacity(modes), peaks: Vec::with_capacity(modes) };
         for first in (0..modes).step_by(together) {
@@ -108,9 +109,13 @@ impl<'a> Feeling<'a> {
         block
     }
 
-    /// Displacement of some modes over the samples of the passage, one row per mode.
+    /// Displacement of some of the shapes that are read out over the samples of the passage, one row per shape.
     fn traces(&self, modes: Range<usize>) -> Vec<Vec<f64>> {
         let taken = &self.passage.taken;
+        if let Some(mixture) = self.field.responses.shapes.mixture() {
+            let some = Mixture { mixing: mixture.mixing.subrows(modes.start, modes.len()), ..mixture };
+            return self.mixed(&some);
+        }
         let mut traces = vec![Vec::with_capacity(taken.len()); modes.len()];
         let mut motion = Motion::of(self.field.responses, self.field.drive, modes);
         motion.skip_to(taken.start, self.field.samples_at_once());
@@ -119,6 +124,23 @@ impl<'a> Feeling<'a> {
             motion.advance(count, |displacement, _| {
                 traces.iter_mut().zip(displacement).for_each(|(trace, u)| trace.push(*u));
             });
+        }
+        traces
+    }
+
+    /// Displacement of combinations over the samples of the passage, one row per shape of their base.
+    fn mixed(&self, mixture: &Mixture) -> Vec<Vec<f64>> {
+        let (taken, at_once) = (&self.passage.taken, self.field.samples_at_once());
+        let mut traces = vec![Vec::with_capacity(taken.len()); mixture.mixing.nrows()];
+        let mut motion = Motion::new(self.field.responses, self.field.drive);
+        motion.skip_to(taken.start, at_once);
+        while motion.next() < taken.end {
+            let count = (taken.end - motion.next()).min(at_once);
+            let [_, displacement] = states(&mut motion, count, self.field.modes());
+            let read = mixture.of_base(displacement.as_ref());
+            for (m, trace) in traces.iter_mut().enumerate() {
+                trace.extend((0..count).map(|i| read[(m, i)]));
+            }
         }
         traces
     }

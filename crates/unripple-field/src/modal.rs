@@ -5,7 +5,7 @@ use crate::readout::Kept;
 use crate::source::{Quantity, Tally};
 use rayon::prelude::*;
 use std::sync::Arc;
-use unripple_core::{Drive, ModalResponses, Point};
+use unripple_core::{Drive, ModalResponses, Point, Shapes};
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product};
 
 /// Points of a block of the field: small enough to stay in cache, with [`SAMPLES`], while it is tallied.
@@ -68,26 +68,46 @@ impl<'a> ModalField<'a> {
         self.responses.poles.len()
     }
 
+    /// The shapes that are read out at the points of the field: those of the modes or, where these are combinations, those of which they
+    /// are. Combining the motion instead costs less, since there are more points than samples at once.
+    fn read(&self) -> &dyn Shapes {
+        let shapes = self.responses.shapes.as_ref();
+        shapes.mixture().map_or(shapes, |mixture| mixture.base)
+    }
+
+    /// Number of shapes that are read out.
+    pub(crate) fn read_modes(&self) -> usize {
+        self.read().modes()
+    }
+
+    /// The motion of the shapes that are read out, from that of the modes; both one row per mode and one column per sample.
+    pub(crate) fn as_read(&self, motion: Mat<f64>) -> Mat<f64> {
+        match self.responses.shapes.mixture() {
+            Some(mixture) => mixture.of_base(motion.as_ref()),
+            None => motion,
+        }
+    }
+
     /// Number of samples whose modal states are in memory at once.
     pub(crate) fn samples_at_once(&self) -> usize {
-        (STATES / self.modes().max(1)).max(SAMPLES)
+        (STATES / self.modes().max(self.read_modes()).max(1)).max(SAMPLES)
     }
 
     /// Number of points whose readout weights are in memory at once.
     pub(crate) fn points_at_once(&self) -> usize {
-        (READ / self.modes().max(1)).clamp(1, POINTS)
+        (READ / self.read_modes().max(1)).clamp(1, POINTS)
     }
 
     /// Readout weights (points x modes) of one chunk of points, in single precision.
     fn weights(&self, points: &[Point]) -> Mat<f32> {
-        let exact = self.responses.shapes.at_all(points);
+        let exact = self.read().at_all(points);
         Mat::from_fn(exact.nrows(), exact.ncols(), |p, m| exact[(p, m)] as f32)
     }
 
-    /// Applies `work` to the weights (points x modes) of every chunk of points and the chunk's item of
+    /// Applies `work` to the weights (points x shapes that are read out) of every chunk of points and the chunk's item of
     /// `owned`, in parallel.
     pub(crate) fn for_chunks<T: Send>(&self, owned: &mut [T], work: impl Fn(&Mat<f32>, &mut T) + Sync) {
-        if self.points().len() * self.modes() > KEPT {
+        if self.points().len() * self.read_modes() > KEPT {
             let chunks = self.points().par_chunks(self.points_at_once());
             chunks.zip(owned.par_iter_mut()).for_each(|(points, own)| work(&self.weights(points), own));
         } else {
@@ -116,10 +136,11 @@ impl<'a> ModalField<'a> {
     /// Velocity and displacement at every point, at some samples.
     pub(crate) fn snapshots(&self, instants: &[usize]) -> Vec<[Vec<f32>; 2]> {
         let states = self.states(instants);
-        let both = Mat::from_fn(self.modes(), 2 * states.len(), |m, column| {
+        let both = self.as_read(Mat::from_fn(self.modes(), 2 * states.len(), |m, column| {
             let state = &states[column / 2];
-            if column % 2 == 0 { state.velocity[m] as f32 } else { state.displacement[m] as f32 }
-        });
+            if column % 2 == 0 { state.velocity[m] } else { state.displacement[m] }
+        }));
+        let both = Mat::from_fn(both.nrows(), both.ncols(), |m, column| both[(m, column)] as f32);
         let mut read = vec![Mat::<f32>::zeros(0, 0); self.points().len().div_ceil(self.points_at_once())];
         self.for_chunks(&mut read, |weights, own| *own = product(weights.as_ref(), both.as_ref()));
         let column = |c: usize| read.iter().flat_map(|chunk| chunk.col_as_slice(c)).copied().collect();

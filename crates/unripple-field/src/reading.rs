@@ -9,7 +9,7 @@ use crate::{FieldError, spot};
 use rayon::prelude::*;
 use std::ops::Range;
 use unripple_core::{Observed, Point};
-use unripple_linalg::{Mat, Number, product};
+use unripple_linalg::{Mat, product};
 
 /// Largest number of samples from the start of a drive: 7 minutes at 48 kHz. Twice as many: 14 minutes.
 const MOST_SAMPLES: usize = 20_000_000;
@@ -45,9 +45,8 @@ impl Source for ModalField<'_> {
         motion.skip_to(range.start, self.samples_at_once());
         while motion.next() < range.end {
             let count = (range.end - motion.next()).min(self.samples_at_once());
-            let [velocity, displacement] = states::<f64>(&mut motion, count, self.modes(), |x| x);
-            let [velocity, displacement] =
-                [velocity, displacement].map(|states| product(weights.as_ref(), states.as_ref()));
+            let [velocity, displacement] = states(&mut motion, count, self.modes())
+                .map(|states| product(weights.as_ref(), states.as_ref()));
             for (row, trace) in traces.iter_mut().enumerate() {
                 trace.velocity.extend((0..count).map(|i| velocity[(row, i)]));
                 trace.displacement.extend((0..count).map(|i| displacement[(row, i)]));
@@ -69,7 +68,10 @@ impl Source for ModalField<'_> {
             motion.skip_to(range.start, self.samples_at_once());
             while motion.next() < range.end {
                 let count = (range.end - motion.next()).min(self.samples_at_once());
-                let both = states::<f32>(&mut motion, count, self.modes(), |x| x as f32);
+                let both = states(&mut motion, count, self.modes()).map(|states| {
+                    let read = self.as_read(states);
+                    Mat::from_fn(read.nrows(), count, |m, i| read[(m, i)] as f32)
+                });
                 self.for_chunks(&mut tallies, |weights, own| {
                     for (states, tally) in both.iter().zip(&mut own[segment]) {
                         add_to(tally, weights.as_ref(), states.as_ref());
@@ -111,22 +113,13 @@ impl Source for ModalField<'_> {
 }
 
 /// Velocity and displacement of all modes over the next `count` samples, modes x samples each.
-fn states<T: Number>(
-    motion: &mut Motion<'_>,
-    count: usize,
-    modes: usize,
-    convert: impl Fn(f64) -> T,
-) -> [Mat<T>; 2] {
+pub(crate) fn states(motion: &mut Motion<'_>, count: usize, modes: usize) -> [Mat<f64>; 2] {
     let mut both = [Mat::zeros(modes, count), Mat::zeros(modes, count)];
     let mut column = 0;
     motion.advance(count, |displacement, velocity| {
         let [to_velocity, to_displacement] = &mut both;
-        to_velocity.col_as_slice_mut(column).iter_mut().zip(velocity).for_each(|(to, v)| *to = convert(*v));
-        to_displacement
-            .col_as_slice_mut(column)
-            .iter_mut()
-            .zip(displacement)
-            .for_each(|(to, u)| *to = convert(*u));
+        to_velocity.col_as_slice_mut(column).copy_from_slice(velocity);
+        to_displacement.col_as_slice_mut(column).copy_from_slice(displacement);
         column += 1;
     });
     both

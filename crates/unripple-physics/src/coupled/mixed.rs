@@ -1,7 +1,7 @@
 //! Mode shapes as linear combinations of other mode shapes.
 
 use std::sync::Arc;
-use unripple_core::{Point, Shapes};
+use unripple_core::{Mixture, Point, Shapes};
 use unripple_linalg::{Mat, product};
 
 /// Mode shapes that are linear combinations of other shapes.
@@ -32,5 +32,9 @@ impl Shapes for Mixed {
     fn at_all(&self, points: &[Point]) -> Mat<f64> {
         let mixed = product(self.base.at_all(points).as_ref(), self.mixing.as_ref());
         Mat::from_fn(points.len(), self.columns.len(), |p, m| mixed[(p, self.columns[m])])
+    }
+
+    fn mixture(&self) -> Option<Mixture<'_>> {
+        Some(Mixture { base: self.base.as_ref(), mixing: self.mixing.as_ref(), columns: &self.columns })
     }
 }
