@@ -137,7 +137,7 @@ impl Windows {
             Ok(Responses::Modal(responses)) => match Modal::of(&responses) {
                 Ok(modal) => Self {
                     by_modes: Some(Statistics::on(&modal, &responses, Medium::of(&surface.sheet))),
-                    ..Self::along(surface, None, |window| modal.contrast(window))
+                    ..Self::along(surface, None, modal.settled(), |window| modal.contrast(window))
                 },
                 Err(reason) => Self::by_law(surface, reason),
             },
@@ -154,24 +154,28 @@ impl Windows {
         // Below the first mode there is no resonance, whatever Weyl's law gives.
         let cavity = Cavity::within(surface, [low.max(first).min(top), top]);
         let actuators = surface.actuators.len() as f64;
-        Self::along(surface, Some(reason.into()), |window| {
+        Self::along(surface, Some(reason.into()), f64::INFINITY, |window| {
             (cavity.contrast(actuators, window), [f64::NAN; 2])
         })
     }
 
     /// Evaluates `contrast`, which gives the mean contrast and its 5 % and 95 % quantiles for a window (s),
-    /// at all windows that are considered.
+    /// at all windows that are considered; from the window `settled` (s) on it is the same.
     fn along(
         surface: &Surface,
         statistics: Option<String>,
+        settled: f64,
         contrast: impl Fn(f64) -> (f64, [f64; 2]) + Sync,
     ) -> Self {
         let shortest = CROSSINGS * Cavity::of(surface, surface.emission.band[1]).crossing();
         let longest = LONGEST.max(4.0 * shortest);
         let steps = (PER_DOUBLING * (longest / shortest).log2()).ceil();
         let at = |step: u32| shortest * (longest / shortest).powf(f64::from(step) / steps);
-        let found: Vec<_> =
-            (0..=steps as u32).into_par_iter().map(|step| (at(step), contrast(at(step)))).collect();
+        let windows: Vec<f64> = (0..=steps as u32).map(at).collect();
+        let moving = windows.partition_point(|window| *window < settled);
+        let computed = &windows[..windows.len().min(moving + 1)];
+        let contrasts: Vec<_> = computed.par_iter().map(|window| contrast(*window)).collect();
+        let found: Vec<_> = (0..windows.len()).map(|i| (windows[i], contrasts[i.min(moving)])).collect();
         let spread = match &statistics {
             Some(_) => Vec::new(),
             None => found.iter().map(|(_, (_, spread))| *spread).collect(),

@@ -2,28 +2,47 @@
 //! form, from modal responses.
 
 use super::places::{grid, targets};
-use unripple_core::{ModalResponses, Onset, Point, Pole};
+use std::ops::Range;
+use unripple_core::{Mixture, ModalResponses, Onset, Point, Pole};
 use unripple_linalg::{Accum, Mat, MatRef, Par, c64, multiply};
 
 /// The terms of a surface's modal responses, arranged to compute the contrast of time reversal for many windows.
 ///
-/// Responses h_a(x) = Σ_m b_am φ_m(x) g_m(t), recorded at A for T and played backwards, give at the focal instant the velocity
-/// Σ_m φ_m(x) Σ_n (Σ_a b_am b_an) I_mn φ_n(A), with I_mn = ∫_0^T g_m g_n dt a sum of exponentials of T.
+/// Responses h_a(x) = Re Σ_p β_ap φ_p(x) e^{s_p t}, recorded at A for T and played backwards, give at the focal instant the velocity
+/// Σ_p φ_p(x) Σ_q L_pq φ_q(A), with L_pq = ½ Re Σ_a [β_ap β_aq J(s_p + s_q) + β_ap β*_aq J(s_p + s*_q)] and J(s) = ∫_0^T e^{st} dt.
 pub struct Modal {
     terms: Vec<Term>,
-    /// Products of the input weights b, summed over actuators: Σ_a b_am b_an, modes x modes.
-    gains: Mat<f64>,
-    /// Mode shapes at the targets, modes x targets.
+    /// The shape of each mode, an index of those below; several modes may share one.
+    columns: Vec<usize>,
+    parts: Vec<Part>,
+    /// Indices of the parts of each complex frequency in turn, a range each.
+    rates: Vec<(c64, Range<usize>)>,
+    /// Σ_a β_ap β_aq and Σ_a β_ap β*_aq for each pair of parts q ≤ p, row by row.
+    gains: Vec<[c64; 2]>,
+    /// Shapes at the targets, shapes x targets.
     targets: Mat<f64>,
-    /// Mode shapes at the grid's points, points x modes.
+    /// Shapes at the grid's points, points x shapes.
     points: Mat<f64>,
     /// Indices of the grid points inside the focal disc of each target.
     within: Vec<Vec<usize>>,
 }
 
+/// All that the responses have in common of one complex frequency and one shape: Re β_a φ(x) e^{st}.
+#[derive(Debug)]
+struct Part {
+    /// Index of the shape.
+    column: usize,
+    /// β for each actuator.
+    inputs: Vec<c64>,
+}
+
 /// Share of the targets whose contrast lies below the interval of contrasts that is reported, and share
 /// above it. With twice this value, one target in five lies outside the interval.
 const TAIL: f64 = 0.05;
+
+/// Number of amplitude decay times after which nothing rings that counts: contrast then stays the same to nine digits. With twice this value,
+/// more windows are computed that give the same contrast.
+const SILENT: f64 = 12.0;
 
 /// An exponential Re a e^{st}, a part of the velocity of a mode after an impulse.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,13 +79,37 @@ impl Modal {
         if targets.is_empty() {
             return Err("focal discs leave nothing of the surface outside them");
         }
+        let terms: Vec<Term> =
+            poles.iter().enumerate().flat_map(|(mode, pole)| exponentials(mode, *pole)).collect();
+        let (columns, at_targets, at_points) = match shapes.mixture() {
+            Some(Mixture { base, mixing, columns }) => {
+                let at = |points: &[Point]| product(base.at_all(points).as_ref(), mixing);
+                (columns.to_vec(), at(&targets), at(&points))
+            }
+            None => ((0..poles.len()).collect(), shapes.at_all(&targets), shapes.at_all(&points)),
+        };
+        let (parts, rates) = parts(&terms, &columns, input.as_ref());
+        let pairs = parts.iter().enumerate().flat_map(|(i, p)| parts[..=i].iter().map(move |q| (p, q)));
+        let gain = |(p, q): (&Part, &Part)| {
+            let both = p.inputs.iter().zip(&q.inputs);
+            both.fold([c64::new(0.0, 0.0); 2], |[one, other], (p, q)| [one + p * q, other + p * q.conj()])
+        };
         Ok(Self {
-            terms: poles.iter().enumerate().flat_map(|(mode, pole)| exponentials(mode, *pole)).collect(),
-            gains: product(input.transpose(), input.as_ref()),
-            targets: shapes.at_all(&targets).transpose().to_owned(),
+            gains: pairs.map(gain).collect(),
+            terms,
+            columns,
+            parts,
+            rates,
+            targets: at_targets.transpose().to_owned(),
             within: targets.iter().map(inside).collect(),
-            points: shapes.at_all(&points),
+            points: at_points,
         })
+    }
+
+    /// Window (s) from which on contrast stays the same: all that rings has decayed to rounding errors. Infinite if anything rings for
+    /// ever.
+    pub fn settled(&self) -> f64 {
+        self.terms.iter().map(|term| SILENT / -term.rate.re).fold(0.0, f64::max)
     }
 
     /// The velocities of all modes as exponentials, in order of the modes.
@@ -76,17 +119,17 @@ impl Modal {
 
     /// Mean square of each mode shape, in 1/kg: first over the targets, then over the grid.
     pub fn mean_squares(&self) -> [Vec<f64>; 2] {
-        let modes = 0..self.gains.nrows();
-        let targets =
-            modes.clone().map(|m| squares(self.targets.row(m).iter()) / self.targets.ncols() as f64);
-        let points = modes.map(|m| squares(self.points.col(m).iter()) / self.points.nrows() as f64);
-        [targets.collect(), points.collect()]
+        let targets: Vec<f64> =
+            self.targets.row_iter().map(|row| squares(row.iter()) / row.ncols() as f64).collect();
+        let points: Vec<f64> =
+            self.points.col_iter().map(|column| squares(column.iter()) / column.nrows() as f64).collect();
+        [targets, points].map(|means| self.columns.iter().map(|column| means[*column]).collect())
     }
 
     /// Contrast at the focal instant for a window in seconds: its mean, from the mean of 1/C² over the
     /// targets, and its 5 % and 95 % quantiles over the targets.
     pub fn contrast(&self, window: f64) -> (f64, [f64; 2]) {
-        let states = product(self.left(window).as_ref(), self.targets.as_ref());
+        let states = self.states(window);
         let field = product(self.points.as_ref(), states.as_ref());
         let square = |target: usize| {
             let column = field.col(target);
@@ -104,31 +147,57 @@ impl Modal {
         (mean, [share(1.0 - TAIL), share(TAIL)])
     }
 
-    /// Amplitude of mode m at the focal instant per unit of the shape of mode n at the target, modes x
-    /// modes.
-    fn left(&self, window: f64) -> Mat<f64> {
-        let modes = self.gains.nrows();
-        let mut left = Mat::zeros(modes, modes);
-        // One exponential for each term: those of pairs are products of them.
-        let ends: Vec<c64> = self.terms.iter().map(|term| (term.rate * window).exp()).collect();
-        for (i, a) in self.terms.iter().enumerate() {
-            for (j, b) in self.terms[..=i].iter().enumerate() {
-                let gathered = integral([a, b], [ends[i], ends[j]], window);
-                left[(a.mode, b.mode)] += gathered;
-                if a.mode == b.mode && i != j {
-                    left[(a.mode, b.mode)] += gathered;
+    /// Amplitude of each shape at the focal instant of each target, shapes x targets.
+    fn states(&self, window: f64) -> Mat<f64> {
+        let count = self.parts.len();
+        let mut left = Mat::zeros(count, count);
+        // One exponential for each frequency: those of pairs are products of them.
+        let ends: Vec<c64> = self.rates.iter().map(|(rate, _)| (rate * window).exp()).collect();
+        for (i, (a, rows)) in self.rates.iter().enumerate() {
+            for (j, (b, columns)) in self.rates[..=i].iter().enumerate() {
+                let one = gathered(a + b, ends[i] * ends[j], window);
+                let other = gathered(a + b.conj(), ends[i] * ends[j].conj(), window);
+                for p in rows.clone() {
+                    let gains = &self.gains[p * (p + 1) / 2..];
+                    for q in columns.start..columns.end.min(p + 1) {
+                        let [both, conjugate] = gains[q];
+                        let value = 0.5
+                            * (both.re * one.re - both.im * one.im + conjugate.re * other.re
+                                - conjugate.im * other.im);
+                        left[(p, q)] = value;
+                        left[(q, p)] = value;
+                    }
                 }
             }
         }
-        for m in 0..modes {
-            for n in 0..=m {
-                let value = left[(m, n)] * self.gains[(m, n)];
-                left[(m, n)] = value;
-                left[(n, m)] = value;
-            }
+        let at = |p: usize, target: usize| self.targets[(self.parts[p].column, target)];
+        let targets = Mat::from_fn(count, self.targets.ncols(), at);
+        let by_parts = product(left.as_ref(), targets.as_ref());
+        let mut states = Mat::zeros(self.targets.nrows(), self.targets.ncols());
+        for (p, part) in self.parts.iter().enumerate() {
+            (0..states.ncols()).for_each(|target| states[(part.column, target)] += by_parts[(p, target)]);
         }
-        left
+        states
     }
+}
+
+/// The parts of responses, and the range of parts of each complex frequency. The modes of one frequency follow each other.
+fn parts(terms: &[Term], columns: &[usize], input: MatRef<'_, f64>) -> (Vec<Part>, Vec<(c64, Range<usize>)>) {
+    let mut order: Vec<&Term> = terms.iter().collect();
+    let key = |term: &&Term| (term.rate.im.to_bits(), term.rate.re.to_bits(), columns[term.mode]);
+    order.sort_by_key(key);
+    let (mut parts, mut rates): (Vec<Part>, Vec<(c64, Range<usize>)>) = (Vec::new(), Vec::new());
+    for same in order.chunk_by(|a, b| key(a) == key(b)) {
+        let inputs =
+            input.row_iter().map(|row| same.iter().map(|term| term.amplitude * row[term.mode]).sum());
+        let (rate, place) = (same[0].rate, parts.len());
+        parts.push(Part { column: columns[same[0].mode], inputs: inputs.collect() });
+        match rates.last_mut() {
+            Some((last, range)) if *last == rate => range.end = place + 1,
+            _ => rates.push((rate, place..place + 1)),
+        }
+    }
+    (parts, rates)
 }
 
 /// Sum of squares.
