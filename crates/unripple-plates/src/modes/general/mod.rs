@@ -19,7 +19,7 @@ use sizing::Plan;
 use solution::Solution;
 use unripple_core::plane::doubled;
 use unripple_core::{Edge, Observed, Surface};
-use unripple_linalg::{ColRef, Mat, sparse_times};
+use unripple_linalg::{ColRef, Mat};
 
 /// Largest number of meshes solved after the first two, each finer than the mesh before by a factor of 1.25
 /// to 1.6. More would only delay the failure if the accuracy cannot be reached.
@@ -147,10 +147,9 @@ fn modes(
         return Err(PhysicsError::Solver { max_hz: bounds.max_hz, found });
     }
     let mut pairs = settled(pairs, surface, bounds);
-    let bent = sparse_times(forms.bending.as_ref(), pairs.vectors.as_ref());
+    let bent = spectrum::works(forms.bending.as_ref(), pairs.vectors.as_ref());
     let share = |m: usize| {
-        let energy: f64 = bent.col(m).iter().zip(pairs.vectors.col(m).iter()).map(|(b, x)| b * x).sum();
-        let square = pairs.values[m];
+        let ([energy, _], square) = (bent[m], pairs.values[m]);
         if square > 0.0 { (energy / square).clamp(0.0, 1.0) } else { 0.0 }
     };
     let bending_shares = (0..pairs.values.len()).map(share).collect();
