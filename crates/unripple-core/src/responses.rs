@@ -92,6 +92,31 @@ pub trait Shapes: Send + Sync + std::fmt::Debug {
 }
 
 /// Mode shapes as combinations of others: shape m is the sum of `mixing[(b, columns[m])]` times shape b of `base`.
+///
+/// ```
+/// use unripple_core::{Mixture, Point, Shapes};
+/// use unripple_linalg::mat;
+///
+/// /// Deflections 1 and x.
+/// #[derive(Debug)]
+/// struct Rigid;
+///
+/// impl Shapes for Rigid {
+///     fn modes(&self) -> usize {
+///         2
+///     }
+///
+///     fn at(&self, point: Point, row: &mut [f64]) {
+///         row.copy_from_slice(&[1.0, point.x]);
+///     }
+/// }
+///
+/// // Three modes, of the shapes x, 1 + 2x and x.
+/// let mixing = mat![[1.0, 0.0], [2.0, 1.0_f64]];
+/// let mixture = Mixture { base: &Rigid, mixing: mixing.as_ref(), columns: &[1, 0, 1] };
+/// let moved = mixture.of_base(mat![[1.0], [10.0], [100.0]].as_ref());
+/// assert_eq!((moved[(0, 0)], moved[(1, 0)]), (10.0, 2.0 * 10.0 + 101.0));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Mixture<'a> {
     /// The shapes that are combined.
