@@ -109,7 +109,7 @@ impl Modal {
     /// Window (s) from which on contrast stays the same: all that rings has decayed to rounding errors. Infinite if anything rings for
     /// ever.
     pub fn settled(&self) -> f64 {
-        self.terms.iter().map(|term| SILENT / -term.rate.re).fold(0.0, f64::max)
+        self.terms.iter().map(|term| SILENT / term.rate.re.abs()).fold(0.0, f64::max)
     }
 
     /// The velocities of all modes as exponentials, in order of the modes.
