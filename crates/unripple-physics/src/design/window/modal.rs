@@ -106,10 +106,9 @@ impl Modal {
         })
     }
 
-    /// Window (s) from which on contrast stays the same: all that rings has decayed to rounding errors. Infinite if anything rings for
-    /// ever.
+    /// Window (s) from which on contrast stays the same: [`SILENT`] decay times of what rings longest. Infinite if anything rings for ever.
     pub fn settled(&self) -> f64 {
-        self.terms.iter().map(|term| SILENT / term.rate.re.abs()).fold(0.0, f64::max)
+        settled(&self.terms)
     }
 
     /// The velocities of all modes as exponentials, in order of the modes.
@@ -200,6 +199,12 @@ fn parts(terms: &[Term], columns: &[usize], input: MatRef<'_, f64>) -> (Vec<Part
     (parts, rates)
 }
 
+/// The longest of [`SILENT`] decay times (s) of terms that have an amplitude.
+fn settled(terms: &[Term]) -> f64 {
+    let sounding = terms.iter().filter(|term| term.amplitude.norm_sqr() > 0.0);
+    sounding.map(|term| SILENT / term.rate.re.abs()).fold(0.0, f64::max)
+}
+
 /// Sum of squares.
 fn squares<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
     values.map(|v| v * v).sum()
@@ -277,6 +282,16 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn what_rings_for_ever_never_settles() {
+        let of = |omega: f64, sigma: f64| settled(&exponentials(0, Pole::new(omega, sigma)));
+        assert_eq!([of(900.0, 0.0), of(0.0, 0.0)], [f64::INFINITY; 2]);
+        assert!((of(900.0, 30.0) - SILENT / 30.0).abs() < 1e-12);
+        // A rigid motion that damping stops, and the slower of two decays.
+        assert!((of(0.0, 20.0) - SILENT / 40.0).abs() < 1e-12);
+        assert!((of(300.0, 400.0) - SILENT / (400.0 - 70000f64.sqrt())).abs() < 1e-12);
     }
 
     #[test]
