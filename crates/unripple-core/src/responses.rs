@@ -129,10 +129,13 @@ pub struct Mixture<'a> {
 
 impl Mixture<'_> {
     /// The motion of the base shapes (base shapes x samples) that is equal to a `motion` of the combined ones (shapes x samples).
+    ///
+    /// # Panics
+    /// If `motion` has fewer rows than there are `columns`, or one of these is not a column of `mixing`.
     pub fn of_base(&self, motion: MatRef<'_, f64>) -> Mat<f64> {
         let mut joined = Mat::zeros(self.mixing.ncols(), motion.ncols());
-        for (m, column) in self.columns.iter().enumerate() {
-            (0..motion.ncols()).for_each(|i| joined[(*column, i)] += motion[(m, i)]);
+        for (mut sums, motion) in joined.as_mut().col_iter_mut().zip(motion.col_iter()) {
+            self.columns.iter().enumerate().for_each(|(m, column)| sums[*column] += motion[m]);
         }
         product(self.mixing, joined.as_ref())
     }

@@ -90,7 +90,9 @@ impl<'a> Feeling<'a> {
     fn block(&self, part: &Range<usize>) -> Block {
         let Passage { taken, span, weighting, .. } = self.passage;
         let modes = self.field.read_modes();
-        let together = (STATES / taken.len().max(1)).max(1);
+        // The motion of all modes is computed for each group of combinations, of which there are therefore few.
+        let held = if self.field.mixture().is_some() { HELD } else { STATES };
+        let together = (held / taken.len().max(1)).max(1);
         let mut block = Block { rows: Vec::with_capacity(modes), peaks: Vec::with_capacity(modes) };
         for first in (0..modes).step_by(together) {
             let traces = self.traces(first..modes.min(first + together));
@@ -112,7 +114,7 @@ impl<'a> Feeling<'a> {
     /// Displacement of some of the shapes that are read out over the samples of the passage, one row per shape.
     fn traces(&self, modes: Range<usize>) -> Vec<Vec<f64>> {
         let taken = &self.passage.taken;
-        if let Some(mixture) = self.field.responses.shapes.mixture() {
+        if let Some(mixture) = self.field.mixture() {
             let some = Mixture { mixing: mixture.mixing.subrows(modes.start, modes.len()), ..mixture };
             return self.mixed(&some);
         }

@@ -5,7 +5,7 @@ use crate::readout::Kept;
 use crate::source::{Quantity, Tally};
 use rayon::prelude::*;
 use std::sync::Arc;
-use unripple_core::{Drive, ModalResponses, Point, Shapes};
+use unripple_core::{Drive, Mixture, ModalResponses, Point, Shapes};
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product};
 
 /// Points of a block of the field: small enough to stay in cache, with [`SAMPLES`], while it is tallied.
@@ -68,11 +68,18 @@ impl<'a> ModalField<'a> {
         self.responses.poles.len()
     }
 
-    /// The shapes that are read out at the points of the field: those of the modes or, where these are combinations, those of which they
-    /// are. Combining the motion instead costs less, since there are more points than samples at once.
+    /// The combinations of which the modes' shapes are, where their base is read out in their place: if it has fewer shapes, each sample costs
+    /// less at every point, and with more points than combinations, combining the motion costs less than combining the shapes.
+    pub(crate) fn mixture(&self) -> Option<Mixture<'_>> {
+        let fewer = |mixture: &Mixture<'_>| {
+            mixture.base.modes() < self.modes() && mixture.mixing.ncols() < self.points().len()
+        };
+        self.responses.shapes.mixture().filter(fewer)
+    }
+
+    /// The shapes that are read out at the points of the field.
     fn read(&self) -> &dyn Shapes {
-        let shapes = self.responses.shapes.as_ref();
-        shapes.mixture().map_or(shapes, |mixture| mixture.base)
+        self.mixture().map_or(self.responses.shapes.as_ref(), |mixture| mixture.base)
     }
 
     /// Number of shapes that are read out.
@@ -82,7 +89,7 @@ impl<'a> ModalField<'a> {
 
     /// The motion of the shapes that are read out, from that of the modes; both one row per mode and one column per sample.
     pub(crate) fn as_read(&self, motion: Mat<f64>) -> Mat<f64> {
-        match self.responses.shapes.mixture() {
+        match self.mixture() {
             Some(mixture) => mixture.of_base(motion.as_ref()),
             None => motion,
         }

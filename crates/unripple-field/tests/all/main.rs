@@ -1,5 +1,6 @@
 //! Tests of unripple-field that share one program: a file a kind of truth. What needs a process of its own is beside it.
 
+mod combined;
 #[path = "../common/mod.rs"]
 mod common;
 mod elsewhere;
