@@ -44,7 +44,8 @@ pub(crate) fn lifted_works(
         0.5 * (rest(i, j) + rest(j, i)) + if i == j { 0.5 / factor.shift } else { 0.0 }
     });
     let Some((scales, turn)) = exact_symmetric(inner.as_ref()) else { return Ok(None) };
-    // Haynsworth's additivity of inertia: as many negative eigenvalues of A are lifted as the inner matrix has.
+    // The lifted matrix is positive definite if and only if A and the inner matrix have equally many negative eigenvalues (Haynsworth's
+    // additivity of inertia).
     if factor.below != scales.iter().filter(|scale| **scale < 0.0).count() {
         return Ok(None);
     }

@@ -29,7 +29,7 @@ pub(crate) use memory::estimate_bytes;
 use pencil::Pencil;
 use plan::Plan;
 use rayon::prelude::*;
-pub(crate) use times::works;
+pub(crate) use times::{symmetric_times, works};
 use unripple_core::Observed;
 use unripple_linalg::Mat;
 use unripple_linalg::sparse::SparseColMatRef;

@@ -26,7 +26,7 @@ pub(crate) struct Integrated {
     of_cubics: Mat<f64>,
     /// … and of integrated Legendre polynomials, functions x the first of these.
     of_others: Mat<f64>,
-    /// Order of the zeros at both ends together, the degree of the first function.
+    /// Order of the zeros at both ends together, the least degree of a function.
     zeros: usize,
     count: usize,
 }
@@ -40,8 +40,8 @@ impl Integrated {
         Self { cubics, of_cubics: Mat::identity(first, first), of_others: Mat::zeros(first, 0), zeros, count }
     }
 
-    /// The same space, with functions that fade from the ends instead of the cubics, for waves of wavenumbers up to κ (dimensionless, on a
-    /// line of length 2). These are made of the first `inner` functions, and replace the cubics in their space too. `None` if rounding
+    /// The same space, with functions that fade within about 1/κ of the ends in place of the cubics (κ without unit, on a line of length 2).
+    /// These are made of the first `inner` functions, and replace the cubics in their space too. `None` if rounding
     /// errors make them dependent.
     pub(crate) fn fading(low: Edge, high: Edge, [inner, count]: [usize; 2], kappa: f64) -> Option<Self> {
         let mut whole = Self::with_cubics(low, high, count);

@@ -59,8 +59,8 @@ impl Line {
         Self::of(Functions::Integrated(Integrated::with_cubics(low, high, count)), low == high, count)
     }
 
-    /// The same, with functions instead of the cubics that fade from the ends, for wavenumbers up to `kappa` (on a line of length 2). The first
-    /// `counts[0]` of all `counts[1]` span the space of as many. `None` if rounding errors make them dependent.
+    /// The same, with functions in place of the cubics that fade within about 1/κ of the ends (on a line of length 2). The first `counts[0]` of
+    /// all `counts[1]` span the space of as many. `None` if rounding errors make them dependent.
     pub(crate) fn fading(low: Edge, high: Edge, counts: [usize; 2], kappa: f64) -> Option<Self> {
         if (low, high) == (Edge::Supported, Edge::Supported) {
             return Some(Self::sines(counts[1]));
@@ -102,16 +102,27 @@ impl Line {
     /// Whether functions `i` and `j` may couple in mass, in slope, in curvature and in ∫f'' g: elsewhere rounding would leave a little.
     fn couple(&self, i: usize, j: usize) -> [bool; 4] {
         let with_all = self.coupling_with_all();
-        REACH.map(|reach| i < with_all || j < with_all || i.abs_diff(j) <= reach)
+        // Without a value at an end, functions are even and odd in turn, whatever the ends.
+        let alike = i.abs_diff(j).is_multiple_of(2);
+        REACH.map(|reach| i < with_all || j < with_all || alike && i.abs_diff(j) <= reach)
     }
 
-    /// Number of functions, the first, that may couple with all others; the rest couples with indices up to 4 away.
+    /// Number of functions, the first, that may couple with all others; the rest couples with every second index up to 4 away.
     pub(crate) fn coupling_with_all(&self) -> usize {
         match &self.functions {
             Functions::Sines => 0,
-            Functions::Polynomials(_) => usize::MAX,
+            Functions::Polynomials(_) => self.count(),
             Functions::Integrated(family) => family.at_ends(),
         }
+    }
+
+    /// The indices of the functions with which one may couple.
+    pub(crate) fn near(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
+        let (with_all, count) = (self.coupling_with_all(), self.count());
+        let first = if index < with_all { with_all } else { index.saturating_sub(REACH[0]).max(with_all) };
+        let last = if index < with_all { count } else { (index + REACH[0] + 1).min(count) };
+        let alike = move |other: &usize| index < with_all || other.abs_diff(index).is_multiple_of(2);
+        (0..with_all).chain((first..last).filter(alike))
     }
 
     /// The first `count` sines, whose integrals are diagonal.

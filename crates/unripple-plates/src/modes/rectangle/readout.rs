@@ -16,6 +16,10 @@ const POINTS: usize = 128;
 /// the last lanes.
 const LANES: usize = 16;
 
+/// Number of values of y for which one thread holds sums over the functions along y. With twice this value, twice the memory: 6 MiB in each
+/// thread for 500 modes of 100 functions along x.
+const LINES: usize = 16;
+
 /// Evaluates Ritz mode shapes: sums of products of one function along each side.
 #[derive(Debug)]
 pub(crate) struct Readout {
@@ -28,10 +32,6 @@ pub(crate) struct Readout {
     arch: Arch,
     modes: usize,
 }
-
-/// Number of values of y for which sums over the functions along y are held at once. With twice this value, twice the memory: 7 MiB for 500
-/// modes of 100 functions along x.
-const LINES: usize = 16;
 
 /// The modes of one symmetry class.
 #[derive(Debug)]
@@ -91,7 +91,7 @@ impl Readout {
         }
     }
 
-    /// Shapes at many points, points x modes: one matrix product per symmetry class, points shared among threads.
+    /// Shapes at many points, points x modes; points are shared among threads.
     pub(crate) fn at_all(&self, points: &[Point]) -> Mat<f64> {
         let mut weights = Mat::zeros(points.len(), self.modes);
         if points.len() <= POINTS {

@@ -8,10 +8,11 @@ use crate::modes::eigen::product;
 use crate::spectrum::{self, Pairs, SpectrumError};
 use unripple_core::Observed;
 use unripple_linalg::sparse::{SparseColMat, SymbolicSparseColMat};
-use unripple_linalg::{Mat, MatRef, Par};
+use unripple_linalg::{Cholesky, Mat, MatRef, Par, exact_symmetric, solve_lower_alone, solve_upper_alone};
 
-/// Largest difference, in indices along a side, between functions that couple but for those that couple with all: those of mass.
-const REACH: usize = 4;
+/// Share of the top ω² up to which modes are combined anew in cubics: below, rounding errors of functions that fade mix modes that are as close
+/// as they are. With twice this value, a seventh more modes are.
+const LOWEST: f64 = 1e-3;
 
 /// A rectangle's energy in functions that couple with few others; see [`Integrated`](super::integrated::Integrated).
 #[derive(Debug)]
@@ -42,7 +43,8 @@ impl SparsePlate {
     pub(crate) fn solve_block(&self, symmetry: Symmetry, top: f64) -> Result<BlockModes, SpectrumError> {
         let plate = &self.plate;
         let inner: Vec<Product> = symmetry.products().collect();
-        let pairs = self.lowest(&inner, symmetry.mirror, top * (1.0 + ABOVE))?;
+        let mut pairs = self.lowest(&inner, symmetry.mirror, top * (1.0 + ABOVE))?;
+        self.settle(symmetry, &inner, &mut pairs, top * LOWEST);
         let error = self.missing(symmetry, &inner, top, (&pairs.values, pairs.vectors.as_ref()))?;
         // Rigid-body modes are known exactly, and listed elsewhere.
         let rigid = plate.rigid_products(symmetry).min(pairs.values.len());
@@ -74,6 +76,22 @@ impl SparsePlate {
         Ok(pairs)
     }
 
+    /// Combines the modes with ω² below `bound` anew, rigid-body modes among them, by a Rayleigh-Ritz step in cubics: in functions that fade,
+    /// their energies are small differences of large numbers, whose rounding errors mix them.
+    fn settle(&self, symmetry: Symmetry, inner: &[Product], pairs: &mut Pairs, bound: f64) {
+        let count = pairs.values.partition_point(|value| *value < bound);
+        let few = pairs.vectors.as_ref().subcols(0, count);
+        let smooth = turned(symmetry, &self.in_cubics, (inner, few), inner);
+        let [stiffness, mass] = matrices(&self.cubic, inner, symmetry.mirror).map(|matrix| {
+            let products = spectrum::symmetric_times(matrix.as_ref(), smooth.as_ref());
+            product(smooth.transpose(), products.as_ref(), Par::Seq)
+        });
+        let Some((values, turn)) = generalised(&stiffness, &mass) else { return };
+        let settled = product(few, turn.as_ref(), Par::Seq);
+        pairs.vectors.as_mut().subcols_mut(0, count).copy_from(&settled);
+        pairs.values[..count].iter_mut().zip(values).for_each(|(to, value)| *to = value.max(0.0));
+    }
+
     /// Largest relative change of a frequency by the functions beyond those of the class; see [`missing`](super::ritz::missing).
     fn missing(
         &self,
@@ -100,7 +118,9 @@ impl SparsePlate {
         };
         let rigid = self.plate.rigid_products(symmetry);
         let inside = values.partition_point(|value| *value <= top);
-        Ok((rigid..inside).map(|m| works[m] / values[m]).fold(0.0, f64::max))
+        let changes = (rigid..inside).map(|m| works[m] / values[m]);
+        // What is no number bounds nothing.
+        Ok(changes.fold(0.0, |most, change| if change.is_nan() { f64::INFINITY } else { most.max(change) }))
     }
 
     /// The share of bending in the elastic energy of each mode, given in cubics: 1 minus that of tension and springs.
@@ -117,6 +137,18 @@ impl SparsePlate {
         let (others, _) = energies(&self.cubic.without_bending(), inner, mirror, smooth);
         others.iter().zip(squares).map(|(energy, square)| (1.0 - energy / square).clamp(0.0, 1.0)).collect()
     }
+}
+
+/// Eigenvalues of K x = λ M x, ascending, and vectors with xᵀMx = 1, of small matrices. `None` if M is not positive definite.
+fn generalised(stiffness: &Mat<f64>, mass: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
+    let factor = Cholesky::new(mass.as_ref())?;
+    let mut half = stiffness.clone();
+    solve_lower_alone(factor.lower(), half.as_mut());
+    let mut whole = half.transpose().to_owned();
+    solve_lower_alone(factor.lower(), whole.as_mut());
+    let (values, mut vectors) = exact_symmetric(whole.as_ref())?;
+    solve_upper_alone(factor.lower().transpose(), vectors.as_mut());
+    Some((values, vectors))
 }
 
 /// The energy xᵀKx of each shape, and the largest relative error that rounding of the entries of K may leave, ε|x|ᵀ|K||x|.
@@ -140,8 +172,8 @@ fn matrices(plate: &Plate, products: &[Product], mirror: f64) -> [SparseColMat<u
         let mut column = Vec::new();
         let images = if mirror == 0.0 { vec![*q] } else { vec![*q, q.mirrored()] };
         for image in images {
-            for i in near(x, image.x) {
-                column.extend(near(y, image.y).map(|j| places[i * high + j]));
+            for i in x.near(image.x) {
+                column.extend(y.near(image.y).map(|j| places[i * high + j]));
             }
         }
         column.retain(|place| *place != usize::MAX);
@@ -159,17 +191,6 @@ fn matrices(plate: &Plate, products: &[Product], mirror: f64) -> [SparseColMat<u
     }
     let pattern = SymbolicSparseColMat::new_checked(products.len(), products.len(), starts, None, rows);
     [stiffness, mass].map(|values| SparseColMat::new(pattern.clone(), values))
-}
-
-/// The indices of the functions along a side with which one may couple.
-fn near(line: &Line, index: usize) -> impl Iterator<Item = usize> {
-    let with_all = line.coupling_with_all();
-    let others = if index < with_all {
-        with_all..line.count()
-    } else {
-        index.saturating_sub(REACH).max(with_all)..(index + REACH + 1).min(line.count())
-    };
-    (0..with_all).chain(others)
 }
 
 /// Shapes given by products of functions, in products of others; `turns` has the functions along each side in terms of those. Products x

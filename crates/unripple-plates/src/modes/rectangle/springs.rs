@@ -20,7 +20,7 @@ impl Springs {
     /// `areal_density` (kg/m²); `None` without springs.
     ///
     /// Twice their energy is ∮ lift u² + tilt (∂u/∂n)² ds. For products orthonormal on [-1, 1]² it is, over ρ_s and along one side,
-    /// lift/ρ_s (2/side) f g + tilt/ρ_s (2/side)³ f' g' at the end, times the identity in the functions along the side.
+    /// lift/ρ_s (2/side) f g + tilt/ρ_s (2/side)³ f' g' at the end, times the mass of the functions along the side.
     pub(crate) fn of(line: &Line, [low, high]: [Edge; 2], side: f64, areal_density: f64) -> Option<Self> {
         let ends: Vec<(f64, f64, f64)> = [(-1.0, low), (1.0, high)]
             .into_iter()
