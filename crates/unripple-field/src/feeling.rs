@@ -2,7 +2,6 @@
 
 use crate::modal::{ModalField, STATES, add_to};
 use crate::motion::Motion;
-use crate::reading::states;
 use crate::source::{Passage, Tally, Weighed};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -138,7 +137,7 @@ impl<'a> Feeling<'a> {
         motion.skip_to(taken.start, at_once);
         while motion.next() < taken.end {
             let count = (taken.end - motion.next()).min(at_once);
-            let [_, displacement] = states(&mut motion, count, self.field.modes());
+            let [_, displacement] = motion.states(count);
             let read = mixture.of_base(displacement.as_ref());
             for (m, trace) in traces.iter_mut().enumerate() {
                 trace.extend((0..count).map(|i| read[(m, i)]));

@@ -78,6 +78,19 @@ impl<'a> Motion<'a> {
         }
     }
 
+    /// Velocity (√J) and displacement (m·√kg) of every mode over the next `count` samples, modes x samples each.
+    pub fn states(&mut self, count: usize) -> [Mat<f64>; 2] {
+        let zeros = || Mat::zeros(self.velocity.len(), count);
+        let [mut velocities, mut displacements] = [zeros(), zeros()];
+        let mut column = 0;
+        self.advance(count, |displacement, velocity| {
+            velocities.col_as_slice_mut(column).copy_from_slice(velocity);
+            displacements.col_as_slice_mut(column).copy_from_slice(displacement);
+            column += 1;
+        });
+        [velocities, displacements]
+    }
+
     /// Velocity (√J) of every mode over the next `count` samples, modes x samples.
     pub fn velocities(&mut self, count: usize) -> Mat<f64> {
         let mut velocities = Mat::zeros(self.velocity.len(), count);

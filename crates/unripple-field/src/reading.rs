@@ -45,8 +45,8 @@ impl Source for ModalField<'_> {
         motion.skip_to(range.start, self.samples_at_once());
         while motion.next() < range.end {
             let count = (range.end - motion.next()).min(self.samples_at_once());
-            let [velocity, displacement] = states(&mut motion, count, self.modes())
-                .map(|states| product(weights.as_ref(), states.as_ref()));
+            let [velocity, displacement] =
+                motion.states(count).map(|states| product(weights.as_ref(), states.as_ref()));
             for (row, trace) in traces.iter_mut().enumerate() {
                 trace.velocity.extend((0..count).map(|i| velocity[(row, i)]));
                 trace.displacement.extend((0..count).map(|i| displacement[(row, i)]));
@@ -68,7 +68,7 @@ impl Source for ModalField<'_> {
             motion.skip_to(range.start, self.samples_at_once());
             while motion.next() < range.end {
                 let count = (range.end - motion.next()).min(self.samples_at_once());
-                let both = states(&mut motion, count, self.modes()).map(|states| {
+                let both = motion.states(count).map(|states| {
                     let read = self.as_read(states);
                     Mat::from_fn(read.nrows(), count, |m, i| read[(m, i)] as f32)
                 });
@@ -110,19 +110,6 @@ impl Source for ModalField<'_> {
         };
         requests.par_iter().zip(&states).map(measure).collect()
     }
-}
-
-/// Velocity and displacement of all modes over the next `count` samples, modes x samples each.
-pub(crate) fn states(motion: &mut Motion<'_>, count: usize, modes: usize) -> [Mat<f64>; 2] {
-    let mut both = [Mat::zeros(modes, count), Mat::zeros(modes, count)];
-    let mut column = 0;
-    motion.advance(count, |displacement, velocity| {
-        let [to_velocity, to_displacement] = &mut both;
-        to_velocity.col_as_slice_mut(column).copy_from_slice(velocity);
-        to_displacement.col_as_slice_mut(column).copy_from_slice(displacement);
-        column += 1;
-    });
-    both
 }
 
 /// Joins tallies `[chunk of points][segment]` into one tally per segment over all points.

@@ -74,7 +74,8 @@ fn combinations_are_read_through_their_base() {
         }
     }
     let options = MeasureOptions::default();
-    let [one, other] = [&open, &closed].map(|r| measure(r, &sent, &[aim.clone()], &options).unwrap());
+    let [one, other] =
+        [&open, &closed].map(|r| measure(r, &sent, std::slice::from_ref(&aim), &options).unwrap());
     let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-4, "{a} {b}");
     let (a, b) = (&one.targets[0], &other.targets[0]);
     near(a.contrast.unwrap(), b.contrast.unwrap());
