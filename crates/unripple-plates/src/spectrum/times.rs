@@ -20,19 +20,13 @@ pub(crate) fn symmetric_times(matrix: SparseColMatRef<usize, f64>, vectors: MatR
     out
 }
 
-/// The work xᵀAx of each vector, and |x|ᵀ|A||x|, which times the machine's precision is a bound of what rounding of the entries of A
-/// changes.
-pub(crate) fn works(matrix: SparseColMatRef<usize, f64>, vectors: MatRef<f64>) -> Vec<[f64; 2]> {
-    let sizes: Vec<f64> = matrix.val().iter().map(|value| value.abs()).collect();
-    let absolute = SparseColMatRef::new(matrix.symbolic(), &sizes);
+/// The work xᵀAx of each vector, for a symmetric matrix given with both triangles.
+pub(crate) fn works(matrix: SparseColMatRef<usize, f64>, vectors: MatRef<f64>) -> Vec<f64> {
     let arch = Arch::new();
     let starts: Vec<usize> = (0..vectors.ncols()).step_by(LANES).collect();
     let panels = starts.into_par_iter().map(|first| {
-        let mut x = panel(vectors, first);
-        let work = dot(&x, &times(arch, matrix, &x));
-        x.iter_mut().flatten().for_each(|value| *value = value.abs());
-        let most = dot(&x, &times(arch, absolute, &x));
-        (0..LANES.min(vectors.ncols() - first)).map(|lane| [work[lane], most[lane]]).collect::<Vec<_>>()
+        let x = panel(vectors, first);
+        dot(&x, &times(arch, matrix, &x))[..LANES.min(vectors.ncols() - first)].to_vec()
     });
     panels.collect::<Vec<_>>().concat()
 }

@@ -149,7 +149,7 @@ fn modes(
     let mut pairs = settled(pairs, surface, bounds);
     let bent = spectrum::works(forms.bending.as_ref(), pairs.vectors.as_ref());
     let share = |m: usize| {
-        let ([energy, _], square) = (bent[m], pairs.values[m]);
+        let (energy, square) = (bent[m], pairs.values[m]);
         if square > 0.0 { (energy / square).clamp(0.0, 1.0) } else { 0.0 }
     };
     let bending_shares = (0..pairs.values.len()).map(share).collect();

@@ -44,14 +44,16 @@ impl SparsePlate {
         let plate = &self.plate;
         let inner: Vec<Product> = symmetry.products().collect();
         let mut pairs = self.lowest(&inner, symmetry.mirror, top * (1.0 + ABOVE))?;
-        self.settle(symmetry, &inner, &mut pairs, top * LOWEST);
+        let cubic = matrices(&self.cubic, &inner, symmetry.mirror);
+        self.settle(symmetry, &inner, &cubic, &mut pairs, top * LOWEST);
         let error = self.missing(symmetry, &inner, top, (&pairs.values, pairs.vectors.as_ref()))?;
         // Rigid-body modes are known exactly, and listed elsewhere.
         let rigid = plate.rigid_products(symmetry).min(pairs.values.len());
         let inside = pairs.values.partition_point(|v| *v <= top).max(rigid);
         let vectors = pairs.vectors.as_ref().subcols(rigid, inside - rigid);
         let smooth = turned(symmetry, &self.in_cubics, (&inner, vectors), &inner);
-        let (squares, rounded) = energies(&self.cubic, &inner, symmetry.mirror, smooth.as_ref());
+        let [stiffness, _] = cubic;
+        let (squares, rounded) = energies(stiffness, smooth.as_ref());
         let bending_shares = self.bending_shares(&inner, symmetry.mirror, &squares, smooth.as_ref());
         let products = plate.products(symmetry);
         let coefficients = turned(symmetry, &self.in_orthonormal, (&inner, vectors), &products);
@@ -76,13 +78,21 @@ impl SparsePlate {
         Ok(pairs)
     }
 
-    /// Combines the modes with ω² below `bound` anew, rigid-body modes among them, by a Rayleigh-Ritz step in cubics: in functions that fade,
+    /// Combines the modes with ω² below `bound` anew, rigid-body modes among them, by a Rayleigh-Ritz step in cubics, of which `cubic` has the
+    /// matrices of energy and mass: in functions that fade,
     /// their energies are small differences of large numbers, whose rounding errors mix them.
-    fn settle(&self, symmetry: Symmetry, inner: &[Product], pairs: &mut Pairs, bound: f64) {
+    fn settle(
+        &self,
+        symmetry: Symmetry,
+        inner: &[Product],
+        cubic: &[SparseColMat<usize, f64>; 2],
+        pairs: &mut Pairs,
+        bound: f64,
+    ) {
         let count = pairs.values.partition_point(|value| *value < bound);
         let few = pairs.vectors.as_ref().subcols(0, count);
         let smooth = turned(symmetry, &self.in_cubics, (inner, few), inner);
-        let [stiffness, mass] = matrices(&self.cubic, inner, symmetry.mirror).map(|matrix| {
+        let [stiffness, mass] = cubic.each_ref().map(|matrix| {
             let products = spectrum::symmetric_times(matrix.as_ref(), smooth.as_ref());
             product(smooth.transpose(), products.as_ref(), Par::Seq)
         });
@@ -134,7 +144,8 @@ impl SparsePlate {
         if !self.cubic.is_held_by_more_than_bending() {
             return vec![1.0; squares.len()];
         }
-        let (others, _) = energies(&self.cubic.without_bending(), inner, mirror, smooth);
+        let [stiffness, _] = matrices(&self.cubic.without_bending(), inner, mirror);
+        let others = spectrum::works(stiffness.as_ref(), smooth);
         others.iter().zip(squares).map(|(energy, square)| (1.0 - energy / square).clamp(0.0, 1.0)).collect()
     }
 }
@@ -152,11 +163,13 @@ fn generalised(stiffness: &Mat<f64>, mass: &Mat<f64>) -> Option<(Vec<f64>, Mat<f
 }
 
 /// The energy xᵀKx of each shape, and the largest relative error that rounding of the entries of K may leave, ε|x|ᵀ|K||x|.
-fn energies(plate: &Plate, products: &[Product], mirror: f64, vectors: MatRef<f64>) -> (Vec<f64>, f64) {
-    let [stiffness, _] = matrices(plate, products, mirror);
-    let works = spectrum::works(stiffness.as_ref(), vectors);
-    let worst = works.iter().map(|[energy, most]| most / energy).fold(0.0, f64::max);
-    (works.iter().map(|[energy, _]| *energy).collect(), f64::EPSILON * worst)
+fn energies(mut stiffness: SparseColMat<usize, f64>, vectors: MatRef<f64>) -> (Vec<f64>, f64) {
+    let energies = spectrum::works(stiffness.as_ref(), vectors);
+    stiffness.val_mut().iter_mut().for_each(|value| *value = value.abs());
+    let sizes = Mat::from_fn(vectors.nrows(), vectors.ncols(), |i, j| vectors[(i, j)].abs());
+    let most = spectrum::works(stiffness.as_ref(), sizes.as_ref());
+    let worst = energies.iter().zip(&most).map(|(energy, most)| most / energy).fold(0.0, f64::max);
+    (energies, f64::EPSILON * worst)
 }
 
 /// The energy matrix (1/s²) and the mass matrix between products, which are in the order of their indices along x, then y; both
