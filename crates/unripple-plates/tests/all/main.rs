@@ -6,6 +6,7 @@ mod error_bounds;
 mod modes_common;
 mod modes_convergence;
 mod modes_oracle;
+mod modes_readout;
 mod outline_oracle;
 #[path = "../round_common/mod.rs"]
 mod round_common;
