@@ -1,6 +1,6 @@
-//! Products of matrices, and matrices of nearly orthonormal columns.
+//! Products of matrices, matrices of nearly orthonormal columns, and the sign of a column.
 
-use unripple_linalg::{Accum, Mat, MatRef, Par, multiply};
+use unripple_linalg::{Accum, ColRef, Mat, MatRef, Par, multiply};
 
 /// The product of two matrices.
 pub(crate) fn product(left: MatRef<f64>, right: MatRef<f64>, par: Par) -> Mat<f64> {
@@ -20,4 +20,10 @@ pub(crate) fn orthonormalised(mut columns: Mat<f64>, par: Par) -> Mat<f64> {
         columns = product(columns.as_ref(), step.as_ref(), par);
     }
     columns
+}
+
+/// The factor +1 or -1 that makes positive the first coefficient that is at least half the largest.
+pub(crate) fn sign(coefficients: ColRef<f64>) -> f64 {
+    let largest = coefficients.iter().fold(0.0, |a: f64, c| a.max(c.abs()));
+    coefficients.iter().find(|c| c.abs() >= 0.5 * largest).map_or(1.0, |c| c.signum())
 }

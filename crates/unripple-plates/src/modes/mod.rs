@@ -5,9 +5,11 @@ mod bounds;
 pub(crate) mod eigen;
 mod found;
 mod general;
+mod jacobi;
 mod legendre;
 mod memory;
 mod rectangle;
+mod ritz;
 
 use crate::{Accuracy, PhysicsError};
 use bounds::Bounds;

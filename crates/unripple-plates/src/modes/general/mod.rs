@@ -8,6 +8,7 @@ mod solution;
 
 use super::best::Best;
 use super::bounds::Bounds;
+use super::eigen::sign;
 use super::found::Found;
 use super::memory::{GIB, MEMORY};
 use crate::PhysicsError;
@@ -19,7 +20,7 @@ use sizing::Plan;
 use solution::Solution;
 use unripple_core::plane::doubled;
 use unripple_core::{Edge, Observed, Surface};
-use unripple_linalg::{ColRef, Mat};
+use unripple_linalg::Mat;
 
 /// Largest number of meshes solved after the first two, each finer than the mesh before by a factor of 1.25
 /// to 1.6. More would only delay the failure if the accuracy cannot be reached.
@@ -209,12 +210,6 @@ fn found(solution: Solution, bounds: &Bounds, error: f64) -> Found {
     let coefficients = Mat::from_fn(vectors.nrows(), vectors.ncols(), |u, m| vectors[(u, m)] * factors[m]);
     let shapes = Box::new(MeshShapes::new(space, coefficients.as_ref()));
     Found { omegas, bending_shares, shapes, error }
-}
-
-/// The sign that makes positive the first coefficient that is at least half the largest.
-fn sign(coefficients: ColRef<'_, f64>) -> f64 {
-    let largest = coefficients.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-    coefficients.iter().find(|c| c.abs() >= 0.5 * largest).map_or(1.0, |c| c.signum())
 }
 
 /// Approximate number of unknowns of a plan, and the memory (bytes) that a solution takes.

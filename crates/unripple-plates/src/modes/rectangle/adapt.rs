@@ -1,11 +1,12 @@
 //! Rayleigh-Ritz basis enlarged until frequencies converge.
 
+use super::super::ritz::ABOVE;
 use super::line::Line;
 use super::plate::Plate;
 use super::polynomials::order;
 use super::problem::Problem;
 use super::product::{Product, Symmetry};
-use super::ritz::{ABOVE, BlockModes, LARGE, solve_block};
+use super::ritz::{BlockModes, LARGE, solve_block};
 use super::sparse::SparsePlate;
 use super::springs::Springs;
 use crate::PhysicsError;

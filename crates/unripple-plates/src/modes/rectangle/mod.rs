@@ -14,6 +14,7 @@ mod separable;
 mod sparse;
 mod springs;
 
+use super::eigen::sign;
 use super::found::Found;
 use crate::{Medium, PhysicsError};
 use readout::Readout;
@@ -99,7 +100,7 @@ fn ritz(problem: &Problem) -> Result<Found, PhysicsError> {
         omegas.push(omega);
         bending_shares.push(blocks[b].bending_shares[m]);
         ranks[b][m] = rank;
-        factors[b][m] = factor * order::sign(blocks[b].coefficients.col(m));
+        factors[b][m] = factor * sign(blocks[b].coefficients.col(m));
     }
     let readout = Readout::new(problem.sides, lines, problem.mass(), blocks, ranks, &factors);
     let form = Form::Ritz(Box::new(readout));

@@ -1,7 +1,6 @@
-//! Orders modes by frequency, and gives each a definite sign.
+//! Orders modes by frequency.
 
 use super::ritz::BlockModes;
-use unripple_linalg::ColRef;
 
 /// Relative difference of ω² below which frequencies count as equal: above rounding errors, below any
 /// difference that an accuracy can resolve. With twice this value, pairs twice as far apart would be
@@ -22,10 +21,4 @@ pub(crate) fn ascending(blocks: &[BlockModes]) -> (Vec<f64>, Vec<(usize, usize)>
         cluster.sort_by_key(|m| (m.1, m.2));
     }
     (squares, modes.iter().map(|m| (m.1, m.2)).collect())
-}
-
-/// The factor +1 or -1 that makes positive the first coefficient that is at least half the largest.
-pub(crate) fn sign(coefficients: ColRef<f64>) -> f64 {
-    let largest = coefficients.iter().fold(0.0, |a: f64, c| a.max(c.abs()));
-    coefficients.iter().find(|c| c.abs() >= 0.5 * largest).map_or(1.0, |c| c.signum())
 }

@@ -1,9 +1,10 @@
 //! The Rayleigh-Ritz problem of a symmetry class with many products, as a sparse one.
 
+use super::super::ritz::ABOVE;
 use super::line::{Class, Line};
 use super::plate::Plate;
 use super::product::{Product, Symmetry};
-use super::ritz::{ABOVE, BlockModes};
+use super::ritz::BlockModes;
 use crate::modes::eigen::product;
 use crate::spectrum::{self, Pairs, SpectrumError};
 use unripple_core::Observed;
