@@ -2,6 +2,7 @@
 
 mod best;
 mod bounds;
+mod disc;
 pub(crate) mod eigen;
 mod found;
 mod general;
@@ -13,7 +14,7 @@ mod ritz;
 
 use crate::{Accuracy, PhysicsError};
 use bounds::Bounds;
-use rectangle::Problem;
+use found::Found;
 use std::f64::consts::TAU;
 use unripple_core::{Point, Pole, Shapes, Surface};
 use unripple_linalg::Mat;
@@ -25,8 +26,8 @@ pub use legendre::gauss;
 /// Shapes φ satisfy ∫ρ φ_m φ_n dS = δ_mn, with ρ the mass per area including the added mass of air. They can be evaluated at any
 /// point of the sheet; for a point outside they have the value at the nearest point of the sheet. The sign of a shape is such that
 /// the first of its coefficients that is at least half the largest is positive. On a uniform rectangle, modes of equal frequency are
-/// ordered by symmetry: even along x first, then even along y, then even under exchange of x and y. On other sheets, they may be
-/// any combination of each other.
+/// ordered by symmetry: even along x first, then even along y, then even under exchange of x and y. On a uniform circle, the one that is
+/// even in y - centre is first. On other sheets, they may be any combination of each other.
 #[derive(Debug)]
 pub struct Modes {
     poles: Vec<Pole>,
@@ -48,6 +49,9 @@ impl Modes {
     /// the fourth power of their number where a clamped side meets a free one. Springs so hard that rounding errors of
     /// their energy exceed `accuracy` are left to a mesh. A sheet that nothing holds has rigid-body modes at 0 Hz:
     /// three, or one if it is under tension.
+    ///
+    /// On a uniform isotropic circle with one edge condition all round the functions are polynomials of the radius times
+    /// sines and cosines of the angle, one number of nodal diameters at a time.
     ///
     /// All other outlines, holes, membranes with elastic sides, orthotropy, profiles and scatterers are solved with
     /// continuously differentiable quintic elements on a mesh (Argyris, Fried and Scharpf 1968), curved along curved
@@ -89,14 +93,8 @@ impl Modes {
     ) -> Result<Self, PhysicsError> {
         let bounds = Bounds::of(surface, max_hz, accuracy.into())?;
         rests(surface, &bounds)?;
-        let found = match Problem::of(surface, bounds)? {
-            Some(rectangle) => match rectangle::solve(&rectangle) {
-                // Rounding errors of hard springs are small on a mesh, where only the unknowns at the side feel them.
-                Err(PhysicsError::NotConverged { .. }) if rectangle.has_springs() => {
-                    general::solve(surface, &bounds)?
-                }
-                found => found?,
-            },
+        let found = match plain(surface, bounds)? {
+            Some(found) => found,
             None => general::solve(surface, &bounds)?,
         };
         let poles = found
@@ -147,6 +145,22 @@ impl Shapes for Modes {
 
     fn at_all(&self, points: &[Point]) -> Mat<f64> {
         self.shapes.at_all(points)
+    }
+}
+
+/// Modes of uniform rectangles and round sheets in functions of their own; `None` for all others, and where rounding errors of hard springs
+/// are too large, since they are small on a mesh, where only the unknowns at the side feel them.
+fn plain(surface: &Surface, bounds: Bounds) -> Result<Option<Found>, PhysicsError> {
+    let (found, springs) = if let Some(rectangle) = rectangle::Problem::of(surface, bounds)? {
+        (rectangle::solve(&rectangle), rectangle.has_springs())
+    } else if let Some(disc) = disc::Problem::of(surface, bounds)? {
+        (disc::solve(&disc), disc.has_springs())
+    } else {
+        return Ok(None);
+    };
+    match found {
+        Err(PhysicsError::NotConverged { .. }) if springs => Ok(None),
+        found => found.map(Some),
     }
 }
 

@@ -11,8 +11,10 @@ use unripple_plates::{Modes, PhysicsError};
 
 const ROUND: f64 = 0.07;
 
+/// Two half circles without straight sides between them: a mesh is needed.
 fn round(edge: Edge) -> Surface {
-    let outline = Outline::new(Shape::Circle { radius: ROUND }).with_edges(Edges::All(edge));
+    let shape = Shape::Stadium { straight: 0.0, radius: ROUND };
+    let outline = Outline::new(shape).with_edges(Edges::All(edge));
     Surface { outline, ..film(Edges::All(Edge::Clamped)) }
 }
 

@@ -181,11 +181,7 @@ pub fn plate(radii: [f64; 2], tension: f64) -> Piece {
 pub fn ring(name: &str, inner: f64, edges: [Edge; 2], tension: f64, k_top: f64) -> Case {
     let middle = 0.5 * (inner + 1.0);
     let pieces = [plate([inner, middle], tension), plate([middle, 1.0], tension)];
-    let outline = if inner > 0.0 {
-        sheets::ring(inner, edges)
-    } else {
-        Outline::new(Shape::Circle { radius: 1.0 }).with_edges(Edges::All(edges[1]))
-    };
+    let outline = if inner > 0.0 { sheets::ring(inner, edges) } else { sheets::meshed_circle(edges[1]) };
     let surface = sheets::sheet(outline, 1.0, tension, 0.3);
     let top = hz(k_top, tension);
     whole(name, surface, radial::frequencies(&pieces, edges, 1.5 * top), top)

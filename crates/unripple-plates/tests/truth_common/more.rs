@@ -204,7 +204,7 @@ fn held_by_springs() -> Vec<Case> {
         let edge = Edge::Elastic { lift, tilt };
         let pieces = [[0.0, 0.5], [0.5, 1.0]].map(|radii| plate(radii, 0.0));
         let known = radial::frequencies(&pieces, [edge; 2], 26.0);
-        let outline = Outline::new(Shape::Circle { radius: 1.0 }).with_edges(Edges::All(edge));
+        let outline = sheets::meshed_circle(edge);
         whole(name, sheets::sheet(outline, 1.0, 0.0, 0.3), known, 18.0)
     };
     vec![

@@ -64,6 +64,11 @@ pub fn sector(angle: f64, straight: Edge, arc: Edge) -> Outline {
     Outline::new(Shape::Path(sides)).with_edges(Edges::PerSide(vec![straight, arc, straight]))
 }
 
+/// A circle of radius 1 that is solved on a mesh: two half circles without straight sides between them.
+pub fn meshed_circle(edge: Edge) -> Outline {
+    Outline::new(Shape::Stadium { straight: 0.0, radius: 1.0 }).with_edges(Edges::All(edge))
+}
+
 /// A ring of outer radius 1 and some inner radius.
 pub fn ring(inner: f64, edges: [Edge; 2]) -> Outline {
     let mut hole = Hole::new(&Shape::Circle { radius: inner }, Point::new(1.0 - inner, 1.0 - inner));

@@ -14,11 +14,11 @@ const MESHED: f64 = 1e-4;
 const FARTHER: [f64; 6] = [1.1, 1.3, 2.0, 4.0, 8.0, 16.0];
 
 /// Relative accuracy to which the natural frequencies of a surface are computed: the one that its file
-/// states, or by default that of [`ResponseOptions`] for plain rectangles and 1e-4 where a mesh is needed.
+/// states, or by default that of [`ResponseOptions`] for plain rectangles and circles and 1e-4 where a mesh is needed.
 /// If an accuracy from the file is out of reach, that is an error; in place of the default, the best that
 /// can be reached is used ([`Accuracy::or_best`]).
 pub fn accuracy(surface: &Surface) -> Accuracy {
-    let plain = matches!(surface.outline.shape, Shape::Rectangle { .. })
+    let plain = matches!(surface.outline.shape, Shape::Rectangle { .. } | Shape::Circle { .. })
         && surface.outline.holes.is_empty()
         && surface.sheet.uneven.is_uniform();
     Accuracy::of(surface.accuracy, if plain { ResponseOptions::default().accuracy.aim } else { MESHED })

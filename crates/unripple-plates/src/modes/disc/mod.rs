@@ -1,0 +1,89 @@
+//! Modes of round sheets by the Rayleigh-Ritz method, one angular order at a time.
+
+mod energy;
+mod order;
+mod problem;
+mod radial;
+mod shapes;
+
+use super::found::Found;
+use super::memory::{GIB, MEMORY};
+use crate::PhysicsError;
+use order::OrderModes;
+use rayon::prelude::*;
+use shapes::{Place, Round};
+use std::f64::consts::TAU;
+use unripple_core::Observed;
+
+pub(super) use problem::Problem;
+
+/// Angular orders beyond ka, as a share of it, up to which modes are looked for: waves along a free rim are at most 1.5 % shorter than those
+/// inside (Konenkov, *Sov. Phys. Acoust.* 6, 122, 1960), so that a mode of order n has ka of at least about n. With twice this value, some
+/// orders more have no mode.
+const BEYOND: f64 = 0.05;
+
+/// Bytes for each (ka)³, by which a problem too large for the allowed memory is refused: six times the coefficients of all shapes, since
+/// there are (ka)²/4 modes of ka/2 coefficients or less. With half this value, polynomials near the centre would be larger than numbers
+/// may be, about 2^(0.7 (n + 2j)) for degrees n + 2j a little above ka.
+const BYTES: f64 = 2.5;
+
+/// Modes of a round sheet.
+///
+/// # Errors
+/// [`PhysicsError::TooLarge`] if more memory would be needed than is allowed; [`PhysicsError::NotConverged`] if no number of functions
+/// reaches an accuracy that is accepted.
+pub(super) fn solve(problem: &Problem) -> Result<Found, PhysicsError> {
+    guard(problem)?;
+    let last = (problem.bounds.k_top * problem.radius * (1.0 + BEYOND)) as usize + 3;
+    let observed = Observed::here();
+    observed.part(|| format!("{} angular orders", last + 1));
+    let steps = observed.steps(last + 1);
+    let orders: Vec<OrderModes> = (0..=last)
+        .into_par_iter()
+        .map(|n| OrderModes::solve(problem, n))
+        .inspect(|_| steps.take(1.0))
+        .collect::<Result<_, _>>()?;
+    let error = orders.iter().map(OrderModes::error).fold(0.0, f64::max);
+    let places = places(&orders);
+    let square = |(n, m, _): &Place| orders[*n].squares[*m];
+    let omegas = places.iter().map(|place| problem.bounds.loaded(square(place)).0).collect();
+    let bending_shares = places.iter().map(|(n, m, _)| orders[*n].bending_shares[*m]).collect();
+    let factor = |square: &f64| problem.bounds.loaded(*square).1;
+    let factors: Vec<Vec<f64>> =
+        orders.iter().map(|order| order.squares.iter().map(factor).collect()).collect();
+    let shapes = Box::new(Round::new(problem, orders, &places, &factors));
+    Ok(Found { omegas, bending_shares, shapes, error })
+}
+
+/// All modes in order of ascending frequency: each but those of order 0 as cosine and as sine.
+fn places(orders: &[OrderModes]) -> Vec<Place> {
+    let mut places: Vec<Place> = Vec::new();
+    for (n, order) in orders.iter().enumerate() {
+        for m in 0..order.squares.len() {
+            places.push((n, m, false));
+            if n > 0 {
+                places.push((n, m, true));
+            }
+        }
+    }
+    let square = |(n, m, _): &Place| orders[*n].squares[*m];
+    places.sort_by(|a, b| square(a).total_cmp(&square(b)).then(a.cmp(b)));
+    places
+}
+
+/// Refuses a problem that would not fit in memory, before any is allocated.
+fn guard(problem: &Problem) -> Result<(), PhysicsError> {
+    let reach = problem.bounds.k_top * problem.radius;
+    let needed = BYTES * reach.powi(3);
+    if needed <= MEMORY {
+        return Ok(());
+    }
+    let nearest = problem.bounds.k_top * (MEMORY / needed).cbrt();
+    Err(PhysicsError::TooLarge {
+        max_hz: problem.bounds.max_hz,
+        unknowns: (0.5 * reach) as usize,
+        needed_gib: needed / GIB,
+        limit_gib: MEMORY / GIB,
+        nearest_hz: problem.bounds.medium.omega(nearest) / TAU,
+    })
+}

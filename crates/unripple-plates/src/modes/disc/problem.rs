@@ -1,0 +1,65 @@
+//! The eigenvalue problem of a round sheet: radius, rim, top frequency.
+
+use super::super::bounds::Bounds;
+use crate::PhysicsError;
+use unripple_core::{Edge, Shape, Surface, require};
+
+/// The eigenvalue problem of a round sheet with one edge condition all round.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Problem {
+    /// Radius, in metres.
+    pub(super) radius: f64,
+    /// The condition at the rim.
+    pub(super) edge: Edge,
+    /// The sheet, the top frequency and the accuracy.
+    pub(super) bounds: Bounds,
+}
+
+impl Problem {
+    /// The problem of a surface; `None` unless it is a uniform, isotropic circle without holes.
+    pub(crate) fn of(surface: &Surface, bounds: Bounds) -> Result<Option<Self>, PhysicsError> {
+        let Shape::Circle { radius } = surface.outline.shape else { return Ok(None) };
+        require("radius", radius > 0.0, "a positive finite number", radius)?;
+        let edge = surface.outline.edge(0);
+        // Springs against rotation do nothing on a sheet without bending stiffness.
+        let tilted = matches!(edge, Edge::Elastic { tilt, .. } if tilt > 0.0)
+            && bounds.medium.bending_stiffness == 0.0;
+        let plain = surface.outline.holes.is_empty() && surface.sheet.uneven.is_uniform();
+        Ok((plain && !tilted).then_some(Self { radius, edge, bounds }))
+    }
+
+    /// Order of the zero of deflections at the rim.
+    pub(super) fn zeros(&self) -> i32 {
+        let most = if self.bounds.medium.bending_stiffness > 0.0 { 2 } else { 1 };
+        match self.edge {
+            Edge::Free | Edge::Elastic { .. } => 0,
+            Edge::Supported => 1,
+            Edge::Clamped => most,
+        }
+    }
+
+    /// Whether the rim is elastic.
+    pub(crate) fn has_springs(&self) -> bool {
+        self.springs().is_some()
+    }
+
+    /// Stiffness of springs at the rim against displacement (N/m²) and rotation (N).
+    pub(super) fn springs(&self) -> Option<[f64; 2]> {
+        match self.edge {
+            Edge::Elastic { lift, tilt } => Some([lift, tilt]),
+            _ => None,
+        }
+    }
+
+    /// Number of functions, the first, of an angular order that are rigid-body motions: they store no energy.
+    pub(super) fn rigid(&self, order: usize) -> usize {
+        let [lift, tilt] = match self.edge {
+            Edge::Free => [0.0; 2],
+            Edge::Elastic { lift, tilt } => [lift, tilt],
+            _ => return 0,
+        };
+        let free =
+            lift == 0.0 && (order == 0 || order == 1 && tilt == 0.0 && self.bounds.medium.tension == 0.0);
+        usize::from(free)
+    }
+}
