@@ -79,13 +79,7 @@ impl Loaded {
         }
         loads.extend(fingers.iter().filter(|load| load.acts()).cloned());
         transducers.iter().filter_map(|t| t.load.as_ref()).chain(fingers).try_for_each(Load::check)?;
-        let places: Vec<Footprint> = transducers.iter().map(|t| t.footprint.clone()).collect();
-        let mut driven = Footprint::all_weights(&places, shapes.as_ref());
-        for (row, transducer) in transducers.iter().enumerate() {
-            driven.row_mut(row).iter_mut().for_each(|weight| *weight *= transducer.gain);
-        }
-        let places: Vec<Footprint> = loads.iter().map(|load| load.footprint.clone()).collect();
-        let at_loads = Footprint::all_weights(&places, shapes.as_ref());
+        let (driven, at_loads) = weights(transducers, &loads, shapes.as_ref());
         Ok(Self {
             shapes,
             poles: poles.to_vec(),
@@ -117,10 +111,15 @@ impl Loaded {
             return Ok(self);
         }
         let remainder = Remainder::new(medium, above, finest);
-        let mut poles = self.poles;
-        let shapes = WithRest::add(self.shapes, &mut poles, &self.loads, &remainder, decay);
-        let owned = self.own.iter().flatten().count();
-        Self::new(shapes, &poles, &self.transducers, &self.loads[owned..])
+        let mut poles = self.poles.clone();
+        let Some(shapes) = WithRest::add(self.shapes.clone(), &mut poles, &self.loads, &remainder, decay)
+        else {
+            return Ok(self);
+        };
+        // What the sheet's own modes weigh is known.
+        let (driven, at_loads) = weights(&self.transducers, &self.loads, &shapes.added());
+        let (driven, at_loads) = (beside(&self.driven, &driven), beside(&self.at_loads, &at_loads));
+        Ok(Self { shapes: Arc::new(shapes), poles, driven, at_loads, ..self })
     }
 
     /// The poles and shapes of the sheet without its loads, with the modes that [`Loaded::with_rest`] added.
@@ -143,4 +142,32 @@ impl Loaded {
     fn driven_coil(&self, transducer: usize) -> Option<usize> {
         self.own[transducer].filter(|_| self.transducers[transducer].entry == Entry::Voltage)
     }
+}
+
+/// The shapes averaged over the footprints of transducers, times their gains, and over those of loads, a row for each. Footprints of both that
+/// are equal, as those of a transducer and of its own load, are averaged over once.
+fn weights(transducers: &[Transducer], loads: &[Load], shapes: &dyn Shapes) -> (Mat<f64>, Mat<f64>) {
+    let mut places: Vec<Footprint> = Vec::new();
+    let mut place = |footprint: &Footprint| {
+        places.iter().position(|known| known == footprint).unwrap_or_else(|| {
+            places.push(footprint.clone());
+            places.len() - 1
+        })
+    };
+    let driven: Vec<usize> = transducers.iter().map(|transducer| place(&transducer.footprint)).collect();
+    let at_loads: Vec<usize> = loads.iter().map(|load| place(&load.footprint)).collect();
+    let all = Footprint::all_weights(&places, shapes);
+    let gained = |t: usize, m: usize| all[(driven[t], m)] * transducers[t].gain;
+    (
+        Mat::from_fn(transducers.len(), shapes.modes(), gained),
+        Mat::from_fn(loads.len(), shapes.modes(), |l, m| all[(at_loads[l], m)]),
+    )
+}
+
+/// Two matrices of as many rows beside each other.
+fn beside(left: &Mat<f64>, right: &Mat<f64>) -> Mat<f64> {
+    let known = left.ncols();
+    Mat::from_fn(left.nrows(), known + right.ncols(), |i, j| {
+        if j < known { left[(i, j)] } else { right[(i, j - known)] }
+    })
 }

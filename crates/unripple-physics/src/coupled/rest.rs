@@ -27,7 +27,7 @@ pub(super) struct WithRest {
 
 impl WithRest {
     /// Appends the poles of the added modes to `poles` (those of `base`), and returns the shapes of all
-    /// modes. `decay` gives the decay rate (1/s) of an added mode from its frequency (rad/s) and wavenumber
+    /// modes; `None` if none are added. `decay` gives the decay rate (1/s) of an added mode from its frequency (rad/s) and wavenumber
     /// (rad/m).
     pub fn add(
         base: Arc<dyn Shapes>,
@@ -35,7 +35,7 @@ impl WithRest {
         loads: &[Load],
         remainder: &Remainder,
         decay: impl Fn(f64, f64) -> f64,
-    ) -> Arc<dyn Shapes> {
+    ) -> Option<Self> {
         let contacts: Vec<(Point, f64)> =
             loads.iter().map(|load| contact(&load.footprint, remainder.finest)).collect();
         let mutual = |power: i32| {
@@ -44,7 +44,7 @@ impl WithRest {
                 remainder.sum(a.distance(b), [first, second], power)
             })
         };
-        let Some((squares, mixing)) = pencil(&mutual(1), &mutual(2)) else { return base };
+        let (squares, mixing) = pencil(&mutual(1), &mutual(2))?;
         for square in &squares {
             let omega = square.sqrt();
             let medium = Medium { air_sides: 0.0, ..remainder.medium };
@@ -61,7 +61,12 @@ impl WithRest {
                 (*at, profile)
             })
             .collect();
-        Arc::new(Self { base, places, mixing })
+        Some(Self { base, places, mixing })
+    }
+
+    /// The shapes of the added modes alone.
+    pub fn added(&self) -> Added<'_> {
+        Added(self)
     }
 
     fn rest(&self, point: Point, row: &mut [f64]) {
@@ -70,6 +75,20 @@ impl WithRest {
             let deflection = profile.at(at.distance(point));
             row.iter_mut().enumerate().for_each(|(m, w)| *w += deflection * self.mixing[(j, m)]);
         }
+    }
+}
+
+/// The added modes without those of the sheet.
+#[derive(Debug)]
+pub(super) struct Added<'a>(&'a WithRest);
+
+impl Shapes for Added<'_> {
+    fn modes(&self) -> usize {
+        self.0.mixing.ncols()
+    }
+
+    fn at(&self, point: Point, row: &mut [f64]) {
+        self.0.rest(point, row);
     }
 }
 
