@@ -45,7 +45,7 @@ pub use coupled::{Loaded, Oscillations};
 pub use design::{Design, design};
 pub use loads::{Circuit, Footprint, Housing, Load};
 pub use responses::{
-    ResponseOptions, response_modes, responses, responses_on, sample, sampled_hz, stepped_hz,
+    ResponseOptions, accuracy, response_modes, responses, responses_on, sample, sampled_hz, stepped_hz,
 };
 pub use stepper::{Channel, Plant, StepperOptions, VirtualSurface};
 pub use surface_modes::SurfaceModes;

@@ -64,6 +64,16 @@ impl SurfaceModes {
         Self::coupled(&below, &asked, modes)
     }
 
+    /// The modes of the sheet from which [`SurfaceModes::solve`] computes.
+    pub(crate) fn modes(
+        surface: &Surface,
+        top_hz: f64,
+        accuracy: impl Into<Accuracy>,
+    ) -> Result<Modes, PhysicsError> {
+        let (below, asked) = asked(surface, top_hz, accuracy.into())?;
+        asked.modes(&below)
+    }
+
     /// The modes up to `top_hz` (Hz) from modes of the sheet already computed: at least up to `top_hz`, and where actuators load the sheet,
     /// best up to one and a half times that.
     ///

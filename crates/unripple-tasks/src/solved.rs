@@ -72,11 +72,11 @@ impl Solved {
     }
 
     /// Default focusing window for a surface and its responses, as [`act::chosen_window`] computes it; the
-    /// part that depends on the surface alone is cached.
+    /// part that does not depend on the length of the responses is cached.
     pub fn window(&self, surface: &Surface, responses: &Responses) -> Recommended {
         let kept = self.kept().windows.clone().filter(|(known, _)| known == surface);
         let (_, windows) = kept.unwrap_or_else(|| {
-            let solved = (surface.clone(), Windows::of(surface));
+            let solved = (surface.clone(), act::windows(surface, responses));
             self.kept().windows = Some(solved.clone());
             solved
         });

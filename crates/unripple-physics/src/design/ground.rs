@@ -4,13 +4,10 @@ use super::paper::WAVELENGTH;
 use super::weyl::Weyl;
 use super::{Cavity, Recommended, Windows, WithActuators};
 use crate::responses::is_loaded;
-use crate::{Accuracy, Medium, Modes, PhysicsError, SurfaceModes};
+use crate::{Medium, Modes, PhysicsError, SurfaceModes, accuracy};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 use unripple_core::{OutOfRange, Surface};
-
-/// Relative accuracy of the natural frequencies for counting modes: 0.3 Hz at 3 kHz, so that a count is
-/// wrong by at most one where modes are hertz apart. Smaller, counts take longer and hardly change.
-pub(super) const ACCURACY: f64 = 1e-4;
 
 /// The quantities from which all figures of a design are computed.
 pub(super) struct Ground<'a> {
@@ -191,18 +188,21 @@ fn check(surface: &Surface) -> Result<(), PhysicsError> {
 /// The modes of a surface up to the top of its band, or the reason why they are not known.
 pub(super) type Solved = Result<SurfaceModes, String>;
 
-/// Solves for the modes of a surface, of the sheet alone where what loads it is out of reach.
-pub(super) fn solved(surface: &Surface) -> Solved {
-    check(surface).map_err(|e| e.to_string())?;
-    let (top, accuracy) = (surface.emission.band[1], Accuracy::of(surface.accuracy, ACCURACY));
-    let solved = match SurfaceModes::solve(surface, top, accuracy) {
-        // Of a sheet that nothing loads, the same solution would fail again.
-        Err(_) if is_loaded(surface).unwrap_or(true) => {
-            Modes::solve(surface, top, accuracy).map(|modes| SurfaceModes::of_sheet(&modes, top))
-        }
-        solved => solved,
-    };
-    solved.map_err(|e| e.to_string())
+/// The modes of the sheet of a surface, as far up as what loads it needs.
+pub(super) fn modes(surface: &Surface) -> Result<Arc<Modes>, PhysicsError> {
+    check(surface)?;
+    SurfaceModes::modes(surface, surface.emission.band[1], accuracy(surface)).map(Arc::new)
+}
+
+/// The modes of the sheet alone, for a surface of which [`modes`] failed with `error`.
+pub(super) fn alone(surface: &Surface, error: &PhysicsError) -> Solved {
+    // Of a sheet that nothing loads, the same solution would fail again.
+    if check(surface).is_err() || !is_loaded(surface).unwrap_or(true) {
+        return Err(error.to_string());
+    }
+    let top = surface.emission.band[1];
+    let found = Modes::solve(surface, top, accuracy(surface)).map_err(|e| e.to_string())?;
+    Ok(SurfaceModes::of_sheet(&found, top))
 }
 
 /// Number of modes of the sheet in the band, and the first frequency above 0, in Hz.

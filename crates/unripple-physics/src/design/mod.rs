@@ -66,7 +66,12 @@ use unripple_core::Surface;
 /// # Ok::<(), unripple_physics::PhysicsError>(())
 /// ```
 pub fn design(surface: &Surface) -> Result<Design, PhysicsError> {
-    on(&ground::Ground::of(surface, ground::solved(surface), || Windows::of(surface))?)
+    match ground::modes(surface) {
+        Ok(modes) => design_on(surface, &modes),
+        Err(error) => {
+            on(&ground::Ground::of(surface, ground::alone(surface, &error), || Windows::of(surface))?)
+        }
+    }
 }
 
 /// The design figures that [`design()`] gives, from modes already computed: all of the band, and where actuators load the sheet, up to one
@@ -79,7 +84,7 @@ pub fn design_on(surface: &Surface, modes: &Arc<Modes>) -> Result<Design, Physic
     // What they cannot be computed for is said where it is needed; a design has its other figures.
     let solved = SurfaceModes::on(surface, top, modes.clone());
     let solved = solved.unwrap_or_else(|_| SurfaceModes::of_sheet(modes, top));
-    on(&ground::Ground::of(surface, Ok(solved), || Windows::of(surface))?)
+    on(&ground::Ground::of(surface, Ok(solved), || Windows::on_modes(surface, modes.clone()))?)
 }
 
 /// The design figures of a surface without solving for its modes, which is much faster: modes are counted by Weyl's law, and the

@@ -41,7 +41,7 @@ pub use readouts::{CELLS, Readouts};
 pub use report::{Channel, CoilHeat, Followed, Report, Stroked, unit};
 pub use send::Sent;
 pub use strength::{DecidedBy, Headroom, Strength};
-pub use window::{chosen_among, chosen_window, lasting, recommended_window};
+pub use window::{chosen_among, chosen_window, lasting, recommended_window, windows};
 
 use crate::core::{Responses, Surface};
 use crate::focus::{Options, Target};

@@ -1,28 +1,15 @@
 //! Modelled responses of a surface, with fingers on it.
 
 use super::{ActError, Note};
-use crate::core::{Contact, Responses, Shape, Surface};
-use crate::physics::{Accuracy, ResponseOptions, responses};
+use crate::core::{Contact, Responses, Surface};
+use crate::physics::{ResponseOptions, responses};
 use std::f64::consts::TAU;
 
-/// Relative accuracy of natural frequencies that are computed on a mesh: a phase error of 0.06 rad at 3 kHz after 30
-/// ms for the highest mode, and far less for lower ones.
-const MESHED: f64 = 1e-4;
+pub use crate::physics::accuracy;
 
 /// Frequencies, as multiples of the top of an empty band, up to which the next mode above is searched for,
 /// one after the other: first near the band, since few modes are computed quickly.
 const FARTHER: [f64; 6] = [1.1, 1.3, 2.0, 4.0, 8.0, 16.0];
-
-/// Relative accuracy to which the natural frequencies of a surface are computed: the one that its file
-/// states, or by default that of [`ResponseOptions`] for plain rectangles and circles and 1e-4 where a mesh is needed.
-/// If an accuracy from the file is out of reach, that is an error; in place of the default, the best that
-/// can be reached is used ([`Accuracy::or_best`]).
-pub fn accuracy(surface: &Surface) -> Accuracy {
-    let plain = matches!(surface.outline.shape, Shape::Rectangle { .. } | Shape::Circle { .. })
-        && surface.outline.holes.is_empty()
-        && surface.sheet.uneven.is_uniform();
-    Accuracy::of(surface.accuracy, if plain { ResponseOptions::default().accuracy.aim } else { MESHED })
-}
 
 /// A note that the natural frequencies of `responses` are less accurate than [`accuracy()`] aims at; `None`
 /// if they are not.

@@ -1,7 +1,8 @@
 //! The focusing window that is used by default.
 
-use crate::core::{Responses, Surface};
+use crate::core::{ModalResponses, Responses, Surface};
 use crate::physics::design::{Recommended, Windows};
+use std::f64::consts::TAU;
 
 /// The default window, in seconds: the one that `unripple design` recommends for the surface, or the length of its
 /// responses if that is shorter.
@@ -9,12 +10,28 @@ pub fn recommended_window(surface: &Surface, responses: &Responses) -> f64 {
     chosen_window(surface, responses).seconds
 }
 
-/// The default window, with the contrast to be expected and the reason for the choice. Computing it solves a coarse
-/// model for the modes, so call it once.
+/// The default window, with the contrast to be expected and the reason for the choice. Where the responses are measured, it solves for
+/// the modes of the surface, so call it once.
 ///
 /// See [`recommended_window`] for the window alone.
 pub fn chosen_window(surface: &Surface, responses: &Responses) -> Recommended {
-    chosen_among(&Windows::of(surface), responses)
+    chosen_among(&windows(surface, responses), responses)
+}
+
+/// The contrast of a surface with windows of several lengths, from its responses where these are of the modes of its band; else, as for
+/// measured responses, from those that it computes.
+pub fn windows(surface: &Surface, responses: &Responses) -> Windows {
+    let own = |modal: &ModalResponses| {
+        let top = TAU * surface.emission.band[1];
+        let within = modal.poles.iter().all(|pole| pole.omega <= top * (1.0 + 1e-9));
+        within
+            && modal.ports.len() == surface.actuators.len()
+            && modal.conditions.band == surface.emission.band
+    };
+    match responses {
+        Responses::Modal(modal) if own(modal) => Windows::on(surface, responses),
+        _ => Windows::of(surface),
+    }
 }
 
 /// The default window as [`chosen_window`] returns it, from `windows`: the contrast of the surface with

@@ -1,10 +1,12 @@
 //! An act against its definitions, and against what is known of the paper's surface.
 
-use unripple::act::{Act, ActError, DecidedBy, Level, LevelKind, chosen_window, model, recommended_window};
-use unripple::core::{Point, Responses, Surface};
+use unripple::act::{
+    Act, ActError, DecidedBy, Level, LevelKind, chosen_window, model, recommended_window, windows,
+};
+use unripple::core::{ActuatorKind, CoilDrive, Edge, Edges, Outline, Point, Responses, Shape, Surface};
 use unripple::field::{Aim, MeasureOptions, measure};
 use unripple::focus::{Focuser, Method, Options, Shaping, Target, focus};
-use unripple::physics::design::papers_surface;
+use unripple::physics::design::{Windows, papers_surface};
 
 fn paper() -> (Surface, Responses) {
     let surface = papers_surface();
@@ -202,6 +204,43 @@ fn the_window_is_that_of_the_design_or_as_long_as_samples_last() {
     assert_eq!(chosen.seconds, 0.02);
     assert!(chosen.why.starts_with("the longest that the responses last"), "{}", chosen.why);
     assert!(chosen.contrast < 0.9 * chosen.largest, "{chosen:?}");
+}
+
+#[test]
+fn the_window_is_the_same_from_responses_at_hand_and_from_modes_of_its_own() {
+    let mut panel = papers_surface();
+    panel.actuators.truncate(3);
+    for actuator in &mut panel.actuators {
+        actuator.contact_radius = 2e-3;
+        actuator.kind = ActuatorKind::MovingMagnet {
+            force_constant: 0.2,
+            resistance: 8.0,
+            inductance: 0.0,
+            moving_mass: 1e-4,
+            driven_by: CoilDrive::Current,
+        };
+    }
+    let mut drum = papers_surface();
+    drum.outline = Outline::new(Shape::Circle { radius: 0.08 }).with_edges(Edges::All(Edge::Clamped));
+    let mut stadium = papers_surface();
+    stadium.outline = Outline::new(Shape::Stadium { straight: 0.03, radius: 0.06 });
+    for round in [&mut drum, &mut stadium] {
+        let (width, height) = round.outline.extent();
+        let inwards = |at: f64, side: f64| 0.5 * side + 0.6 * (at - 0.075);
+        for actuator in &mut round.actuators {
+            actuator.at = Point::new(inwards(actuator.at.x, width), inwards(actuator.at.y, height));
+        }
+    }
+    for mut surface in [papers_surface(), panel, drum, stadium] {
+        surface.emission.band = [300.0, 1500.0];
+        let responses = model(&surface, None, &[]).unwrap();
+        let [at_hand, own] = [windows(&surface, &responses), Windows::of(&surface)].map(|w| w.recommended());
+        assert_eq!(at_hand, own);
+        assert_eq!(own.seconds, unripple::physics::design(&surface).unwrap().window_recommended_s);
+        // Modes above the band, on which drives are evaluated, do not count.
+        let more = model(&surface, Some(2000.0), &[]).unwrap();
+        assert_eq!(windows(&surface, &more).recommended(), own);
+    }
 }
 
 #[test]

@@ -6,10 +6,11 @@ mod places;
 
 use super::weyl::Weyl;
 use super::{Cavity, Statistics};
-use crate::{Accuracy, Medium, ResponseOptions, responses};
+use crate::{Accuracy, Medium, Modes, ResponseOptions, accuracy, responses, responses_on};
 pub(super) use modal::{Modal, Term, integral};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 use unripple_core::{Responses, Surface};
 
 /// Share of the largest contrast that the recommended window reaches: a longer window would gain little for
@@ -38,11 +39,6 @@ const AS_GOOD: f64 = 0.995;
 /// Number of windows computed for each doubling of the window: contrast changes by at most 6 % from one to
 /// the next, and is interpolated. With twice this value, the curve takes twice as long.
 const PER_DOUBLING: f64 = 6.0;
-
-/// Relative accuracy of the natural frequencies. The mean contrast over many targets depends on the number
-/// and statistics of the modes, not on the exact frequency of each. Smaller, modes take longer and contrast
-/// stays the same.
-const ACCURACY: f64 = 1e-3;
 
 /// Largest number of modes below the top of the band up to which they are solved for. The work grows as its
 /// square, and statistics are accurate for more modes. With twice this value, the largest surfaces take
@@ -97,6 +93,19 @@ pub struct Recommended {
     pub why: String,
 }
 
+/// Why the modes of a surface are not solved for, if they are too many.
+fn too_many(surface: &Surface) -> Option<String> {
+    let top = surface.emission.band[1];
+    let below = Weyl::of(surface).below(Medium::of(&surface.sheet).wavenumber(TAU * top));
+    let most = below.is_nan() || below > MOST_MODES;
+    most.then(|| format!("some {below:.0} modes are too many to be solved for here"))
+}
+
+/// Responses to the default accuracy, or to a coarser one if that is all that can be had.
+fn options(surface: &Surface) -> ResponseOptions {
+    ResponseOptions { accuracy: Accuracy::or_best(accuracy(surface).aim), ..ResponseOptions::default() }
+}
+
 impl Recommended {
     /// Limits the recommended window to `longest` (s), the length of the responses; `windows` gives the
     /// contrast at the limit.
@@ -119,29 +128,39 @@ impl Recommended {
 }
 
 impl Windows {
-    /// Computes the contrast of a surface against the window. Takes as long as a coarse solution for its
-    /// modes.
+    /// Computes the contrast of a surface against the window, from responses that it computes to the [default accuracy](accuracy).
     pub fn of(surface: &Surface) -> Self {
-        let top = surface.emission.band[1];
-        let below = Weyl::of(surface).below(Medium::of(&surface.sheet).wavenumber(TAU * top));
-        if below.is_nan() || below > MOST_MODES {
-            return Self::by_law(
-                surface,
-                format!("some {below:.0} modes are too many to be solved for here"),
-            );
+        if let Some(reason) = too_many(surface) {
+            return Self::by_law(surface, reason);
         }
-        // A coarser accuracy may be all that can be had; a finer one would change nothing.
-        let accuracy = Accuracy::or_best(surface.accuracy.map_or(ACCURACY, |asked| asked.max(ACCURACY)));
-        let options = ResponseOptions { accuracy, ..ResponseOptions::default() };
-        match responses(surface, &options) {
-            Ok(Responses::Modal(responses)) => match Modal::of(&responses) {
-                Ok(modal) => Self {
-                    by_modes: Some(Statistics::on(&modal, &responses, Medium::of(&surface.sheet))),
-                    ..Self::along(surface, None, modal.settled(), |window| modal.contrast(window))
-                },
-                Err(reason) => Self::by_law(surface, reason),
+        match responses(surface, &options(surface)) {
+            Ok(responses) => Self::on(surface, &responses),
+            Err(error) => Self::by_law(surface, error.to_string()),
+        }
+    }
+
+    /// Computes the contrast of a surface against the window from its responses, computed earlier from the modes of its band. From those
+    /// that [`Windows::of`] computes it is the same to the last digit.
+    pub fn on(surface: &Surface, responses: &Responses) -> Self {
+        if let Some(reason) = too_many(surface) {
+            return Self::by_law(surface, reason);
+        }
+        let Responses::Modal(responses) = responses else {
+            return Self::by_law(surface, "its modes are not known");
+        };
+        match Modal::of(responses) {
+            Ok(modal) => Self {
+                by_modes: Some(Statistics::on(&modal, responses, Medium::of(&surface.sheet))),
+                ..Self::along(surface, None, modal.settled(), |window| modal.contrast(window))
             },
-            Ok(Responses::Sampled(_)) => Self::by_law(surface, "its modes are not known"),
+            Err(reason) => Self::by_law(surface, reason),
+        }
+    }
+
+    /// As [`Windows::on`], from the modes of which [`responses_on`] makes responses.
+    pub(super) fn on_modes(surface: &Surface, modes: Arc<Modes>) -> Self {
+        match responses_on(surface, modes, &options(surface)) {
+            Ok(responses) => Self::on(surface, &responses),
             Err(error) => Self::by_law(surface, error.to_string()),
         }
     }
