@@ -28,9 +28,11 @@
 //! assert_eq!(sheet.area(), 0.015);
 //! ```
 
+mod cache;
 mod cycle;
 mod device;
 mod drive;
+mod encoded;
 mod error;
 mod laminate;
 mod material;
@@ -49,9 +51,11 @@ mod surface;
 mod touch;
 mod uneven;
 
+pub use cache::{Cache, Cached};
 pub use cycle::{Cycle, Work};
 pub use device::{CHECK_INTERVAL, Device, DeviceError, Layout, PROBE, Server, State, Status};
 pub use drive::Drive;
+pub use encoded::{Encoded, encode_matrix};
 pub use error::CoreError;
 pub use laminate::{Laminate, Layer};
 pub use material::{MATERIALS, Material};
