@@ -24,6 +24,7 @@
 
 mod building;
 mod builtin;
+mod cache;
 mod decimal;
 mod degrees;
 mod document;
@@ -48,6 +49,7 @@ mod wav;
 mod wide;
 
 pub use builtin::{BUILTINS, Builtin};
+pub use cache::{DiskCache, Usage};
 pub use effects::{
     BuiltinEffects, EFFECTS_SCHEMA, builtin_effect, builtin_effects, effect_files, effects_to_toml,
     import_haptic, load_effects, parse_effects,
