@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{
-    Conditions, Contact, ModalResponses, Point, Pole, Port, Responses, SampledResponses, Shape, Shapes,
-    Surface, require,
+    Cached, Conditions, Contact, ModalResponses, Point, Pole, Port, Responses, SampledResponses, Shape,
+    Shapes, Surface, require,
 };
 use unripple_dsp::ModalSynth;
 use unripple_linalg::{Mat, MatRef};
@@ -197,7 +197,16 @@ impl Asked {
             sheet.thickness,
             |omega, k| decay_rate(&sheet.decay, omega, medium.bending_share(k)),
         )?;
-        loaded.oscillations(DYNAMIC * self.max_hz, [surface.emission.band[0], self.max_hz])
+        let band = [surface.emission.band[0], self.max_hz];
+        Cached::here().result_by(
+            || {
+                let on = (&surface.outline, &surface.sheet, &poles, self.reach, self.accuracy, band);
+                format!("modes with loads: {on:?} {:?} {:?}", self.transducers, self.fingers)
+            },
+            || loaded.oscillations(DYNAMIC * self.max_hz, band),
+            Oscillations::encode,
+            |from| loaded.decode(from),
+        )
     }
 
     /// The responses from modes, with all loads.

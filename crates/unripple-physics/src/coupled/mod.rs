@@ -17,6 +17,7 @@ mod admittance;
 mod basis;
 mod conservative;
 mod coordinates;
+mod kept;
 mod mixed;
 mod oscillations;
 mod quotient;

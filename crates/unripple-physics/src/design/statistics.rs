@@ -4,7 +4,7 @@
 use super::window::{Modal, Term, integral};
 use crate::Medium;
 use std::f64::consts::{PI, TAU};
-use unripple_core::ModalResponses;
+use unripple_core::{Encoded, ModalResponses};
 use unripple_dsp::bessel_j;
 use unripple_linalg::c64;
 
@@ -59,6 +59,27 @@ struct Mode {
     everywhere: f64,
     /// Wavenumber, in rad/m.
     wavenumber: f64,
+}
+
+impl Encoded for Statistics {
+    fn encode(&self, to: &mut Vec<u8>) {
+        self.terms.encode(to);
+        let modes = self.modes.iter().map(|m| [m.driven, m.at_targets, m.everywhere, m.wavenumber]);
+        modes.collect::<Vec<_>>().encode(to);
+        [self.scatter, self.shared, self.radius, self.area].encode(to);
+    }
+
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        let (terms, modes) = <(Vec<Term>, Vec<[f64; 4]>)>::decode(from)?;
+        let [scatter, shared, radius, area] = Encoded::decode(from)?;
+        let mode = |[driven, at_targets, everywhere, wavenumber]: [f64; 4]| Mode {
+            driven,
+            at_targets,
+            everywhere,
+            wavenumber,
+        };
+        Some(Self { terms, modes: modes.into_iter().map(mode).collect(), scatter, shared, radius, area })
+    }
 }
 
 impl Statistics {

@@ -1,5 +1,6 @@
 //! Tests of unripple-physics that share one program: a file a kind of truth. What needs a process of its own is beside it.
 
+mod cache_oracle;
 mod coil_oracle;
 #[path = "../coupled_common/mod.rs"]
 mod coupled_common;

@@ -11,7 +11,7 @@ pub(super) use modal::{Modal, Term, integral};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use unripple_core::{Responses, Surface};
+use unripple_core::{Cached, Encoded, Responses, Surface};
 
 /// Share of the largest contrast that the recommended window reaches: a longer window would gain little for
 /// its delay. At 1, the window of the largest contrast would be recommended, however long it is.
@@ -148,13 +148,39 @@ impl Windows {
         let Responses::Modal(responses) = responses else {
             return Self::by_law(surface, "its modes are not known");
         };
-        match Modal::of(responses) {
-            Ok(modal) => Self {
-                by_modes: Some(Statistics::on(&modal, responses, Medium::of(&surface.sheet))),
-                ..Self::along(surface, None, modal.settled(), |window| modal.contrast(window))
+        let key = || {
+            let input: Vec<f64> =
+                responses.input.col_iter().flat_map(|column| column.iter()).copied().collect();
+            format!("contrast by window: {surface:?} {:?} {input:?}", responses.poles)
+        };
+        let found = Cached::here().result_by(
+            key,
+            || {
+                let modal = Modal::of(responses)?;
+                let by_modes = Some(Statistics::on(&modal, responses, Medium::of(&surface.sheet)));
+                let along = Self::along(surface, None, modal.settled(), |window| modal.contrast(window));
+                Ok::<_, &str>(Self { by_modes, ..along })
             },
-            Err(reason) => Self::by_law(surface, reason),
+            Self::encode,
+            Self::decode,
+        );
+        found.unwrap_or_else(|reason| Self::by_law(surface, reason))
+    }
+
+    /// Appends the bytes of contrasts that are computed from modes.
+    fn encode(&self, to: &mut Vec<u8>) {
+        let curve: Vec<[f64; 2]> = self.curve.iter().map(|(window, contrast)| [*window, *contrast]).collect();
+        curve.encode(to);
+        self.spread.encode(to);
+        if let Some(statistics) = &self.by_modes {
+            statistics.encode(to);
         }
+    }
+
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        let (curve, spread) = <(Vec<[f64; 2]>, Vec<[f64; 2]>)>::decode(from)?;
+        let curve = curve.into_iter().map(|[window, contrast]| (window, contrast)).collect();
+        Some(Self { curve, spread, by_modes: Some(Statistics::decode(from)?), statistics: None })
     }
 
     /// As [`Windows::on`], from the modes of which [`responses_on`] makes responses.

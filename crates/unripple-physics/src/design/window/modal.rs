@@ -3,7 +3,7 @@
 
 use super::places::{grid, targets};
 use std::ops::Range;
-use unripple_core::{Mixture, ModalResponses, Onset, Point, Pole};
+use unripple_core::{Encoded, Mixture, ModalResponses, Onset, Point, Pole};
 use unripple_linalg::{Accum, Mat, MatRef, Par, c64, multiply};
 
 /// The terms of a surface's modal responses, arranged to compute the contrast of time reversal for many windows.
@@ -53,6 +53,18 @@ pub struct Term {
     pub amplitude: c64,
     /// Complex frequency s, in 1/s.
     pub rate: c64,
+}
+
+impl Encoded for Term {
+    fn encode(&self, to: &mut Vec<u8>) {
+        let (amplitude, rate) = (self.amplitude, self.rate);
+        (self.mode, [amplitude.re, amplitude.im, rate.re, rate.im]).encode(to);
+    }
+
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        let (mode, [re, im, growth, omega]) = Encoded::decode(from)?;
+        Some(Self { mode, amplitude: c64::new(re, im), rate: c64::new(growth, omega) })
+    }
 }
 
 impl Modal {

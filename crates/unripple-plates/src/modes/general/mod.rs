@@ -19,7 +19,7 @@ use crate::spectrum::{self, Pairs};
 use sizing::Plan;
 use solution::Solution;
 use unripple_core::plane::doubled;
-use unripple_core::{Edge, Observed, Surface};
+use unripple_core::{Cached, Edge, Encoded, Observed, Surface};
 use unripple_linalg::Mat;
 
 /// Largest number of meshes solved after the first two, each finer than the mesh before by a factor of 1.25
@@ -62,15 +62,32 @@ pub(super) fn solve(surface: &Surface, bounds: &Bounds) -> Result<Found, Physics
     }
 }
 
-/// The modes on a mesh fine enough for the accuracy, and a bound of the relative error of their frequencies.
+/// The modes on a mesh fine enough for the accuracy, and a bound of the relative error of their frequencies, computed or from a cache, which
+/// keeps them with the plan of the mesh.
 fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), PhysicsError> {
     let fabric = Fabric::of(surface)?;
-    let plan = affordable(surface, &fabric, bounds)?;
+    Cached::here().result_by(
+        || format!("modes on a mesh: {:?} {:?} {bounds:?}", surface.outline, surface.sheet),
+        || refined(surface, &fabric, bounds),
+        |(solution, error), to| {
+            error.encode(to);
+            solution.encode(to);
+        },
+        |from| {
+            let error = f64::decode(from)?;
+            Solution::decode(from, surface, &fabric, bounds).map(|solution| (solution, error))
+        },
+    )
+}
+
+/// Solves on finer and finer meshes until the error is small enough.
+fn refined(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<(Solution, f64), PhysicsError> {
+    let plan = affordable(surface, fabric, bounds)?;
     let coarse = plan.coarser(COARSER);
     let mesh = |number: usize| Observed::here().within(format!("mesh {number} of {} at most", 2 + ROUNDS));
     let mut levels = Vec::new();
     for plan in [&coarse.coarser(COARSER), &coarse] {
-        levels.push(modes(surface, &fabric, bounds, plan, &mesh(1 + levels.len()))?.level());
+        levels.push(modes(surface, fabric, bounds, plan, &mesh(1 + levels.len()))?.level());
     }
     let third = coarse.coarser(1.0 / rates::finer(&levels, bounds.accuracy));
     // From levels that tell no rate the third has no edge length, and no cost.
@@ -86,7 +103,7 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
             }
             return Err(too_large(surface, bounds, &plan)?);
         }
-        let fine = match modes(surface, &fabric, bounds, &plan, &mesh(1 + levels.len())) {
+        let fine = match modes(surface, fabric, bounds, &plan, &mesh(1 + levels.len())) {
             Err(PhysicsError::Solver { .. }) if best.is_any() => break,
             fine => fine?,
         };
@@ -135,8 +152,7 @@ fn modes(
     observed: &Observed,
 ) -> Result<Solution, PhysicsError> {
     observed.part(|| "triangles".into());
-    let mesh = Mesh::new(&surface.outline, &plan.sizing())?;
-    let space = Space::new(&mesh, fabric.bends()).with_kinks(&mesh, fabric);
+    let (mesh, space) = meshed(surface, fabric, plan)?;
     observed.part(|| "matrices".into());
     let forms = space.assemble(fabric);
     let observed = observed.within(format!("{} unknowns", forms.mass.nrows()));
@@ -155,7 +171,14 @@ fn modes(
     };
     let bending_shares = (0..pairs.values.len()).map(share).collect();
     space.nodal(&mut pairs.vectors);
-    Ok(Solution { space, pairs, bending_shares, edge: mean_edge(&mesh) })
+    Ok(Solution { plan: plan.clone(), space, pairs, bending_shares, edge: mean_edge(&mesh) })
+}
+
+/// The mesh of a sheet as planned, and the functions on it.
+fn meshed(surface: &Surface, fabric: &Fabric, plan: &Plan) -> Result<(Mesh, Space), PhysicsError> {
+    let mesh = Mesh::new(&surface.outline, &plan.sizing())?;
+    let space = Space::new(&mesh, fabric.bends()).with_kinks(&mesh, fabric);
+    Ok((mesh, space))
 }
 
 /// The geometric mean over the sheet's area of the edge length (m) of equilateral triangles as large as

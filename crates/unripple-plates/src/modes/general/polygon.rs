@@ -48,14 +48,14 @@ pub(super) fn membrane(
 
 /// The modes of the plate from the modes of the membrane.
 pub(super) fn plate(membrane: Solution, as_membrane: &Bounds, bounds: &Bounds) -> Solution {
-    let Solution { space, mut pairs, mut bending_shares, edge } = membrane;
+    let Solution { mut pairs, mut bending_shares, .. } = membrane;
     let (of_membrane, of_plate) = (as_membrane.vacuum(), bounds.vacuum());
     for (square, share) in pairs.values.iter_mut().zip(&mut bending_shares) {
         let k = of_membrane.wavenumber(square.sqrt());
         *square = of_plate.omega(k).powi(2);
         *share = of_plate.bending_share(k);
     }
-    Solution { space, pairs, bending_shares, edge }
+    Solution { pairs, bending_shares, ..membrane }
 }
 
 /// The error to report for the plate, given the error of solving for the membrane.

@@ -166,6 +166,24 @@ impl Plan {
         }
     }
 
+    /// The numbers by which plans for one surface and frequency differ.
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        let whole = [self.size, self.accuracy, self.growth, self.finer, self.layer];
+        let masses = self.masses.iter().map(|mass| mass.edge);
+        whole.into_iter().chain(masses).chain(self.discs.iter().map(|disc| disc.edge)).collect()
+    }
+
+    /// The plan for the same surface and frequency with these numbers; `None` if they are not as many.
+    pub(super) fn with_numbers(mut self, numbers: &[f64]) -> Option<Self> {
+        let ([size, accuracy, growth, finer, layer], edges) = numbers.split_first_chunk()?;
+        (self.size, self.accuracy, self.growth) = (*size, *accuracy, *growth);
+        (self.finer, self.layer) = (*finer, *layer);
+        let (masses, discs) = edges.split_at_checked(self.masses.len())?;
+        self.masses.iter_mut().zip(masses).for_each(|(mass, edge)| mass.edge = *edge);
+        self.discs.iter_mut().zip(discs).for_each(|(disc, edge)| disc.edge = *edge);
+        (discs.len() == self.discs.len()).then_some(self)
+    }
+
     /// The relative error of frequencies due to effects that a comparison with a coarser mesh does not
     /// show.
     pub(super) fn unresolved(&self) -> f64 {

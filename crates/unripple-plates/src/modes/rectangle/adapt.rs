@@ -16,7 +16,7 @@ use crate::modes::memory::{GIB, MEMORY};
 use crate::spectrum;
 use rayon::prelude::*;
 use std::f64::consts::{PI, SQRT_2};
-use unripple_core::{Edge, Observed};
+use unripple_core::{Edge, Encoded, Observed};
 use unripple_linalg::{Mat, Par};
 
 /// Largest number of rounds, each with up to 1.6 times as many polynomials as the round before. More would
@@ -52,12 +52,28 @@ const LAYER: f64 = 4.0;
 
 /// The modes of a rectangle with the requested accuracy.
 pub(crate) struct Solution {
-    /// The basis functions along x and y.
-    pub(crate) lines: [Line; 2],
+    /// The numbers of basis functions along x and y, of which [`lines`] makes the functions.
+    pub(crate) counts: [usize; 2],
     /// The modes, by symmetry class; rigid-body modes come first, each in a class of its own.
     pub(crate) blocks: Vec<BlockModes>,
     /// Largest relative error of a frequency, estimated.
     pub(crate) error: f64,
+}
+
+impl Encoded for Solution {
+    fn encode(&self, to: &mut Vec<u8>) {
+        self.counts.encode(to);
+        self.blocks.encode(to);
+        self.error.encode(to);
+    }
+
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        Some(Self {
+            counts: Encoded::decode(from)?,
+            blocks: Encoded::decode(from)?,
+            error: f64::decode(from)?,
+        })
+    }
 }
 
 /// Solves with more and more polynomials until the estimated error is at most the requested one.
@@ -81,13 +97,14 @@ pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
         let rounded = largest(|block| block.rounded);
         let error = largest(|block| block.error) + rounded;
         if error <= problem.bounds.accuracy {
-            return Ok(Solution { blocks, error, lines: plate.lines });
+            return Ok(Solution { counts, blocks, error });
         }
+        let used = counts;
         let step = step(problem.bounds.accuracy, counts, error, &mut before);
         for (axis, count) in counts.iter_mut().enumerate() {
             *count += if plate.lines[axis].exact() { 0 } else { step };
         }
-        best.take(Solution { blocks, error, lines: plate.lines }, error, STALLED);
+        best.take(Solution { counts: used, blocks, error }, error, STALLED);
         // Once rounding errors are most of what is left, more polynomials only cost memory.
         if best.is_stalled(PATIENCE) || 2.0 * rounded > error {
             break;

@@ -19,7 +19,7 @@ use super::found::Found;
 use crate::{Medium, PhysicsError};
 use readout::Readout;
 use separable::{Separable, Wave};
-use unripple_core::{Point, Shapes};
+use unripple_core::{Cached, Point, Shapes};
 use unripple_linalg::Mat;
 
 pub(super) use problem::Problem;
@@ -90,7 +90,9 @@ fn separable(problem: &Problem) -> Result<Found, PhysicsError> {
 
 /// Modes by the Ritz method, in order of frequency, with the added mass of air and a definite sign.
 fn ritz(problem: &Problem) -> Result<Found, PhysicsError> {
-    let adapt::Solution { lines, blocks, error } = adapt::solve(problem)?;
+    let key = || format!("modes of a rectangle: {problem:?}");
+    let adapt::Solution { counts, blocks, error } = Cached::here().result(key, || adapt::solve(problem))?;
+    let lines = adapt::lines(problem, counts);
     let (squares, places) = order::ascending(&blocks);
     let mut ranks: Vec<Vec<usize>> = blocks.iter().map(|b| vec![0; b.squares.len()]).collect();
     let mut factors: Vec<Vec<f64>> = blocks.iter().map(|b| vec![0.0; b.squares.len()]).collect();

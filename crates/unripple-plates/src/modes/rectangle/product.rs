@@ -2,6 +2,7 @@
 
 use super::line::{Class, Line};
 use std::f64::consts::FRAC_1_SQRT_2;
+use unripple_core::Encoded;
 
 /// A deflection with norm 1: a function along x times a function along y, alone or with its mirror image (x
 /// and y exchanged).
@@ -13,6 +14,17 @@ pub(crate) struct Product {
     pub(crate) y: usize,
     /// Factor of the mirror image: 0 (no mirror image), 1 or -1.
     pub(crate) mirror: f64,
+}
+
+impl Encoded for Product {
+    fn encode(&self, to: &mut Vec<u8>) {
+        ([self.x, self.y], self.mirror).encode(to);
+    }
+
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        let ([x, y], mirror) = Encoded::decode(from)?;
+        Some(Self { x, y, mirror })
+    }
 }
 
 impl Product {

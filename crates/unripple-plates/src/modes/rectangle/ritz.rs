@@ -4,6 +4,7 @@ use super::super::eigen::product;
 use super::super::ritz::{lowest, missing};
 use super::plate::Plate;
 use super::product::{Product, Symmetry};
+use unripple_core::Encoded;
 use unripple_linalg::{Mat, Par};
 
 /// Number of products of a class from which its modes are those of a sparse problem: below, a full decomposition takes a fraction of a
@@ -26,6 +27,23 @@ pub(crate) struct BlockModes {
     pub(crate) error: f64,
     /// A bound of the relative error of a squared frequency by rounding.
     pub(crate) rounded: f64,
+}
+
+impl Encoded for BlockModes {
+    fn encode(&self, to: &mut Vec<u8>) {
+        self.products.encode(to);
+        self.squares.encode(to);
+        self.bending_shares.encode(to);
+        self.coefficients.encode(to);
+        [self.error, self.rounded].encode(to);
+    }
+
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        let (products, squares) = <(Vec<Product>, Vec<f64>)>::decode(from)?;
+        let (bending_shares, coefficients) = <(Vec<f64>, Mat<f64>)>::decode(from)?;
+        let [error, rounded] = Encoded::decode(from)?;
+        Some(Self { products, squares, bending_shares, coefficients, error, rounded })
+    }
 }
 
 impl BlockModes {
