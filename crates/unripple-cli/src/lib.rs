@@ -10,6 +10,7 @@ macro_rules! eprintln {
 }
 
 mod args;
+mod cache;
 mod calibrate;
 mod check;
 mod common;
@@ -109,6 +110,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Drift(options) => drift::run(options, common),
         Command::Reproduce(options) => reproduce::run(options, common),
         Command::Rerun(options) => rerun::run(options, common),
+        Command::Cache(options) => cache::run(options, common),
         Command::Completions(options) => shell::completions(options, common),
         Command::Man(options) => shell::man(options, common),
     }

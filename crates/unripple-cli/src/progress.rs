@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
-use unripple::core::Observer;
+use unripple::core::{Cache, Observer};
 use unripple_tasks::{Progress, part_of};
 
 /// Steps of a bar, more than a terminal has columns.
@@ -204,6 +204,10 @@ impl Progress for Terminal {
 
     fn observer(&self) -> Option<Arc<dyn Observer>> {
         Some(self.shown.clone())
+    }
+
+    fn cache(&self) -> Option<Arc<dyn Cache>> {
+        unripple_tasks::cache::disk()
     }
 
     fn cancelled(&self) -> bool {

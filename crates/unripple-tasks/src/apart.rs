@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Condvar, LazyLock, Mutex, PoisonError};
 use std::time::Duration;
-use unripple::core::{Observed, Observer};
+use unripple::core::{Cached, Observed, Observer};
 
 /// Interval at which the caller checks for a cancellation: a tenth of the 0.2 s after which people take a program for stuck.
 const LOOK: Duration = Duration::from_millis(20);
@@ -127,9 +127,10 @@ impl Lane {
         let (to, from) = channel();
         let shared = Arc::new(Shared::default());
         let mut relay = Relay { to, shared: shared.clone() };
+        let cached = Cached::by(progress.cache());
         let work = move || {
             let observed = Observed::by(relay.observer());
-            let over = observed.during(|| work(&mut relay));
+            let over = observed.during(|| cached.during(|| work(&mut relay)));
             // Whoever cancelled it is not informed of how it ended.
             let _ = relay.to.send(Said::Over(over));
         };

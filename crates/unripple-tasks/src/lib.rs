@@ -25,6 +25,7 @@
 
 mod apart;
 pub mod between;
+pub mod cache;
 pub mod calibrate;
 pub mod check;
 pub mod commands;

@@ -2,7 +2,7 @@
 
 use crate::TaskError;
 use std::sync::Arc;
-use unripple::core::{Observed, Observer};
+use unripple::core::{Cache, Cached, Observed, Observer};
 
 /// Callbacks that a task calls to report its progress, and to ask whether it has been cancelled.
 ///
@@ -41,6 +41,11 @@ pub trait Progress {
         None
     }
 
+    /// Cache in which long computations find the results of earlier ones, while [`observed`] runs the task; `None` by default.
+    fn cache(&self) -> Option<Arc<dyn Cache>> {
+        None
+    }
+
     /// Whether the task has been cancelled. Every long loop asks this.
     fn cancelled(&self) -> bool {
         false
@@ -63,10 +68,10 @@ pub struct Silent;
 impl Progress for Silent {}
 
 /// Runs `work` so that its long computations, such as meshing or solving for eigenvalues, report their
-/// progress to [the observer](Progress::observer), if there is one.
+/// progress to [the observer](Progress::observer), and find earlier results in [the cache](Progress::cache), if there is one.
 pub fn observed<T>(progress: &mut dyn Progress, work: impl FnOnce(&mut dyn Progress) -> T) -> T {
-    let observed = Observed::by(progress.observer());
-    observed.during(|| work(progress))
+    let (observed, cached) = (Observed::by(progress.observer()), Cached::by(progress.cache()));
+    observed.during(|| cached.during(|| work(progress)))
 }
 
 /// Text that names a part of a stage, as `stage: part`, or the part alone if `stage` is empty.

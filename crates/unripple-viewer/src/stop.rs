@@ -4,6 +4,7 @@ use crate::ViewError;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::{Duration, Instant};
+use unripple::core::Cache;
 use unripple_tasks::Progress;
 
 /// How long work may take in all once newer work waits. Most surfaces are computed in that time, so that
@@ -67,6 +68,10 @@ pub struct Watch {
 }
 
 impl Progress for Watch {
+    fn cache(&self) -> Option<Arc<dyn Cache>> {
+        unripple_tasks::cache::disk()
+    }
+
     fn cancelled(&self) -> bool {
         match self.stop.0.load(Ordering::Relaxed) {
             GO_ON => false,

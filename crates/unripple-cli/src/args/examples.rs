@@ -111,6 +111,11 @@ pub const REPRODUCE: &str = "Examples:
 pub const RERUN: &str = "Examples:
   unripple rerun out/report.json -o again";
 
+/// For `cache`: its size, and all of it gone.
+pub const CACHE: &str = "Examples:
+  unripple cache
+  unripple cache --empty";
+
 /// For `completions`: where bash looks for them.
 pub const COMPLETIONS: &str = "Examples:
   unripple completions bash > ~/.local/share/bash-completion/completions/unripple";

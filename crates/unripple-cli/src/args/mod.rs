@@ -56,6 +56,8 @@ pub struct Arguments {
 const EXITS: &str =
     "Options that are not given are taken from unripple/config.toml in the user's folder of
 configurations ($XDG_CONFIG_HOME or ~/.config; %APPDATA% on Windows), if it is there, or from the file that UNRIPPLE_CONFIG names.
+Modes that took more than a second are kept in unripple in the user's folder of caches ($XDG_CACHE_HOME or ~/.cache; %LOCALAPPDATA% on
+Windows), or in the folder that UNRIPPLE_CACHE names; if it is empty, nothing is kept (see unripple cache).
 Exit codes: 0 the work is done; 1 it failed, or its result is doubtful; 2 bad usage or bad input.";
 
 /// The version, with the commit that the program was built from where that is known.
@@ -107,6 +109,8 @@ pub enum Command {
     Reproduce(ReproduceOptions),
     /// Run again what a report records: the same options, seeds and surfaces, on the same files.
     Rerun(RerunOptions),
+    /// Show the cache of computed modes on this machine, or empty it.
+    Cache(CacheOptions),
     /// Print a script that lets a shell complete commands and options.
     Completions(CompletionsOptions),
     /// Write manual pages, one for each command.
@@ -127,6 +131,15 @@ pub struct CheckOptions {
 pub struct MaterialsOptions {
     /// Name of one material; by default all are listed.
     pub name: Option<String>,
+}
+
+/// Options of `cache`.
+#[derive(Debug, Args)]
+#[command(after_help = examples::CACHE)]
+pub struct CacheOptions {
+    /// Remove all results from the cache.
+    #[arg(long)]
+    pub empty: bool,
 }
 
 /// Options of `devices`.

@@ -7,6 +7,7 @@ mod any_file;
 #[path = "../common/bench.rs"]
 mod bench;
 mod bounds;
+mod cache;
 mod calibrate;
 mod calibrate_bands;
 mod calibrate_taps;

@@ -69,10 +69,10 @@ impl Drop for Scratch {
     }
 }
 
-/// The program, without the configuration file of whoever runs the tests.
+/// The program, without the configuration file and the cache of whoever runs the tests.
 pub fn program() -> Command {
     let mut program = Command::new(env!("CARGO_BIN_EXE_unripple"));
-    program.env("UNRIPPLE_CONFIG", "");
+    program.env("UNRIPPLE_CONFIG", "").env("UNRIPPLE_CACHE", "");
     program
 }
 

@@ -123,6 +123,11 @@ pub fn built_from(commit: &'static str) {
     let _ = COMMIT.set(commit);
 }
 
+/// The commit that the program was built from, where that is known.
+pub(crate) fn commit() -> Option<String> {
+    COMMIT.get().filter(|commit| !commit.is_empty()).map(|commit| (*commit).to_owned())
+}
+
 impl Record {
     /// Makes the record of a request that is about to be performed, with surfaces and files as they are
     /// now.
@@ -170,7 +175,7 @@ impl Record {
             schema: SCHEMA_NAME.into(),
             program: "unripple".into(),
             version: env!("CARGO_PKG_VERSION").into(),
-            commit: COMMIT.get().filter(|commit| !commit.is_empty()).map(|commit| (*commit).to_owned()),
+            commit: commit(),
             date: now(),
             command: A::COMMAND.into(),
             ask: serde_json::to_value(&ask).map_err(TaskError::work)?,

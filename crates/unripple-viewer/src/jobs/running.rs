@@ -10,6 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
+use unripple::core::Cache;
 use unripple_tasks::{Progress, Report, TaskError, apart, calibrate, devices, doctor};
 
 /// Number of lines that are shown, and longest length of each: as many as a panel shows.
@@ -99,6 +100,10 @@ impl Progress for Heard {
 
     fn tell(&mut self, line: &str) {
         self.0.say(line);
+    }
+
+    fn cache(&self) -> Option<Arc<dyn Cache>> {
+        unripple_tasks::cache::disk()
     }
 
     fn cancelled(&self) -> bool {
