@@ -3,7 +3,7 @@
 use crate::Field;
 use crate::modal::ModalField;
 use crate::motion::Motion;
-use unripple_core::{Drive, Point};
+use unripple_core::{Drive, Mixture, Point, Shapes};
 use unripple_linalg::{Mat, product};
 
 impl Field<'_> {
@@ -26,7 +26,7 @@ impl Field<'_> {
 impl ModalField<'_> {
     /// The velocities under contacts that [`Field::under`] returns.
     pub(crate) fn velocities_under(&self, contacts: &[&[(Point, f64)]]) -> Vec<Vec<f64>> {
-        let weights = self.summed(contacts);
+        let weights = summed(self.responses.shapes.as_ref(), contacts);
         let channels = self.drive.channels();
         // Half of what the impulse of a sample adds to the velocity at once, per unit of each channel.
         let half = Mat::from_fn(contacts.len(), channels.len(), |c, a| {
@@ -50,17 +50,22 @@ impl ModalField<'_> {
         }
         found
     }
+}
 
-    /// Weights of each mode in the velocity under each contact, contacts x modes.
-    fn summed(&self, contacts: &[&[(Point, f64)]]) -> Mat<f64> {
-        let mut weights = Mat::zeros(contacts.len(), self.modes());
-        for (c, contact) in contacts.iter().enumerate() {
-            let points: Vec<Point> = contact.iter().map(|(point, _)| *point).collect();
-            let shapes = self.responses.shapes.at_all(&points);
-            for m in 0..self.modes() {
-                weights[(c, m)] = contact.iter().enumerate().map(|(p, (_, w))| w * shapes[(p, m)]).sum();
-            }
-        }
-        weights
+/// Weighted sums of shapes over each contact, contacts x shapes. Of combinations, those of the base are summed and then combined, since contacts
+/// have many points.
+pub(crate) fn summed(shapes: &dyn Shapes, contacts: &[&[(Point, f64)]]) -> Mat<f64> {
+    if let Some(Mixture { base, mixing, columns }) = shapes.mixture() {
+        let mixed = product(summed(base, contacts).as_ref(), mixing);
+        return Mat::from_fn(contacts.len(), columns.len(), |c, m| mixed[(c, columns[m])]);
     }
+    let mut weights = Mat::zeros(contacts.len(), shapes.modes());
+    for (c, contact) in contacts.iter().enumerate() {
+        let points: Vec<Point> = contact.iter().map(|(point, _)| *point).collect();
+        let read = shapes.at_all(&points);
+        for m in 0..shapes.modes() {
+            weights[(c, m)] = contact.iter().enumerate().map(|(p, (_, w))| w * read[(p, m)]).sum();
+        }
+    }
+    weights
 }

@@ -1,5 +1,6 @@
 //! Evaluation of the field of a modal system: traces, surveys, felt levels, focal spots.
 
+use crate::contact::summed;
 use crate::feeling::Feeling;
 use crate::modal::{ModalField, State, add_to};
 use crate::motion::Motion;
@@ -32,14 +33,12 @@ impl Source for ModalField<'_> {
     }
 
     fn traces(&self, sets: &[Vec<Point>], range: Range<usize>) -> Vec<Trace> {
-        let mut weights = Mat::<f64>::zeros(sets.len(), self.modes());
-        for (row, set) in sets.iter().enumerate() {
-            let all = self.responses.shapes.at_all(set);
-            for m in 0..self.modes() {
-                weights[(row, m)] =
-                    (0..set.len()).map(|p| all[(p, m)]).sum::<f64>() / set.len().max(1) as f64;
-            }
-        }
+        let mean = |set: &Vec<Point>| -> Vec<(Point, f64)> {
+            set.iter().map(|point| (*point, 1.0 / set.len() as f64)).collect()
+        };
+        let sets: Vec<Vec<(Point, f64)>> = sets.iter().map(mean).collect();
+        let contacts: Vec<&[(Point, f64)]> = sets.iter().map(Vec::as_slice).collect();
+        let weights = summed(self.responses.shapes.as_ref(), &contacts);
         let mut traces = vec![Trace::default(); sets.len()];
         let mut motion = Motion::new(self.responses, self.drive);
         motion.skip_to(range.start, self.samples_at_once());
@@ -97,10 +96,16 @@ impl Source for ModalField<'_> {
         let states = self.states(&instants);
         let conditions = &self.responses.conditions;
         let measure = |((at, _, quantity), state): (&(Point, usize, Quantity), &State)| {
-            let state = state.of(*quantity);
+            let state = Mat::from_fn(self.modes(), 1, |m, _| state.of(*quantity)[m]);
+            let shapes = self.responses.shapes.as_ref();
+            // To combine the motion once costs less than the shapes at every point.
+            let (shapes, state) = match shapes.mixture() {
+                Some(mixture) => (mixture.base, mixture.of_base(state.as_ref())),
+                None => (shapes, state),
+            };
             let field = |points: &[Point]| {
-                let weights = self.responses.shapes.at_all(points);
-                let value = |p| (0..state.len()).map(|m| weights[(p, m)] * state[m]).sum();
+                let weights = shapes.at_all(points);
+                let value = |p| (0..state.nrows()).map(|m| weights[(p, m)] * state[(m, 0)]).sum();
                 (0..points.len()).map(value).collect::<Vec<f64>>()
             };
             spot::spot(

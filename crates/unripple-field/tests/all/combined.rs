@@ -82,4 +82,17 @@ fn combinations_are_read_through_their_base() {
     near(a.background_contrast.unwrap(), b.background_contrast.unwrap());
     near(a.worst_spot.unwrap(), b.worst_spot.unwrap());
     near(one.felt_outside_db.unwrap(), other.felt_outside_db.unwrap());
+    near(a.spot_diameter_m.unwrap(), b.spot_diameter_m.unwrap());
+    let contact: Vec<(Point, f64)> =
+        [(0.05, 0.5), (0.06, 0.3), (0.07, 0.2)].map(|(x, weight)| (Point::new(x, 0.04), weight)).into();
+    let [one, other] = [&open, &closed].map(|responses| {
+        let field = Field::new(responses, &sent, 8.0).unwrap();
+        let under = field.under(&[&contact, &contact[..1]]).unwrap();
+        let trace = field.traces(&[at], 0.02).unwrap().remove(0);
+        [under, vec![trace.velocity, trace.displacement]].concat()
+    });
+    for (one, other) in one.iter().zip(&other) {
+        let most = other.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        assert!(most > 0.0 && one.iter().zip(other).all(|(a, b)| (a - b).abs() < 1e-11 * most));
+    }
 }
