@@ -148,18 +148,18 @@ impl Shapes for Modes {
     }
 }
 
-/// Modes of uniform rectangles and round sheets in functions of their own; `None` for all others, and where rounding errors of hard springs
-/// are too large, since they are small on a mesh, where only the unknowns at the side feel them.
+/// Modes of uniform rectangles and round sheets in functions of their own; `None` for all others, and where a mesh may reach the accuracy and
+/// these do not: rounding errors of hard springs are small on a mesh, where only the unknowns at the side feel them.
 fn plain(surface: &Surface, bounds: Bounds) -> Result<Option<Found>, PhysicsError> {
-    let (found, springs) = if let Some(rectangle) = rectangle::Problem::of(surface, bounds)? {
+    let (found, meshed) = if let Some(rectangle) = rectangle::Problem::of(surface, bounds)? {
         (rectangle::solve(&rectangle), rectangle.has_springs())
     } else if let Some(disc) = disc::Problem::of(surface, bounds)? {
-        (disc::solve(&disc), disc.has_springs())
+        (disc::solve(&disc), true)
     } else {
         return Ok(None);
     };
     match found {
-        Err(PhysicsError::NotConverged { .. }) if springs => Ok(None),
+        Err(PhysicsError::NotConverged { .. }) if meshed => Ok(None),
         found => found.map(Some),
     }
 }

@@ -154,3 +154,25 @@ fn what_is_out_of_reach_is_refused_or_given_with_its_error() {
     let most = 0.5 * best.error();
     assert!(Modes::solve(&surface, 10.0, Accuracy { aim: 1e-4, most }).is_err());
 }
+
+/// Films so thin that their boundary layers are a thousandth and less of a side, against themselves with a hundred times the accuracy.
+#[test]
+fn stated_errors_are_bounds_where_boundary_layers_are_thin() {
+    for (thickness, top) in [(12e-6, 3000.0), (6e-6, 4000.0), (2e-6, 6000.0)] {
+        let mut surface = film(Edges::All(Edge::Clamped));
+        surface.outline.shape = Shape::Rectangle { width: 0.15, height: 0.11 };
+        (surface.sheet.thickness, surface.sheet.tension) = (thickness, 200.0);
+        let exact = Modes::solve(&surface, top, 1e-6).unwrap().frequencies_hz();
+        for accuracy in [1e-2, 1e-3, 1e-4] {
+            let modes = Modes::solve(&surface, top, accuracy).unwrap();
+            let found = modes.frequencies_hz();
+            let apart = found.iter().zip(&exact).map(|(f, e)| (f / e - 1.0).abs()).fold(0.0, f64::max);
+            println!("{thickness:e}, asked {accuracy:e}: {:e} stated, {apart:e} off", modes.error());
+            assert!(
+                apart <= modes.error() + 1e-6 && modes.error() <= accuracy,
+                "{apart:e} {:e}",
+                modes.error()
+            );
+        }
+    }
+}

@@ -15,8 +15,6 @@ pub(super) struct Energy {
     squares: Mat<f64>,
     /// Number of rows of bending.
     bending: usize,
-    /// What springs at the rim add to the trace of the energy matrix, in 1/s².
-    springs: f64,
 }
 
 impl Energy {
@@ -55,8 +53,7 @@ impl Energy {
         let [lift, tilt] = [scale(springs[0], 1), scale(springs[1], 3)];
         fill(&rim, &|f| f.value, lift);
         fill(&rim, &|f| f.slope, tilt);
-        let springs = rim.iter().map(|f| (lift * f.value).powi(2) + (tilt * f.slope).powi(2)).sum();
-        Self { squares, bending, springs }
+        Self { squares, bending }
     }
 
     /// The energy matrix between all functions but the first `rigid`, in 1/s².
@@ -71,9 +68,15 @@ impl Energy {
         parts.col_iter().map(|column| column.iter().map(|x| x * x).sum()).collect()
     }
 
-    /// A bound of the relative error that rounding of energies of springs and of modes up to `top` (1/s²) leaves in a squared frequency of
-    /// `square` (1/s²). Where the springs are hard, their energies cancel each other in each mode.
-    pub(super) fn rounded(&self, square: f64, top: f64) -> f64 {
-        f64::EPSILON * (self.springs + top) / square
+    /// A bound of the relative error that rounding leaves in the squared frequencies `squares` (1/s²) of modes, functions (without the first
+    /// `rigid`) x modes. It is as many rounding errors of each product in the energy of a mode as there are functions: where springs are
+    /// hard or tension is large, products cancel each other.
+    pub(super) fn rounded(&self, rigid: usize, (squares, modes): (&[f64], MatRef<f64>)) -> f64 {
+        let rest = self.squares.as_ref().subcols(rigid, modes.nrows());
+        let sizes = Mat::from_fn(rest.nrows(), rest.ncols(), |i, j| rest[(i, j)].abs());
+        let shapes = Mat::from_fn(modes.nrows(), squares.len(), |j, m| modes[(j, m)].abs());
+        let parts = product(sizes.as_ref(), shapes.as_ref(), Par::Seq);
+        let sum = |m: usize| parts.col(m).iter().map(|part| part * part).sum::<f64>() / squares[m];
+        f64::EPSILON * modes.nrows() as f64 * (0..squares.len()).map(sum).fold(0.0, f64::max)
     }
 }

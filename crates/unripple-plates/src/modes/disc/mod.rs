@@ -31,19 +31,25 @@ const BYTES: f64 = 2.5;
 ///
 /// # Errors
 /// [`PhysicsError::TooLarge`] if more memory would be needed than is allowed; [`PhysicsError::NotConverged`] if no number of functions
-/// reaches an accuracy that is accepted.
+/// reaches the accuracy that is aimed at.
 pub(super) fn solve(problem: &Problem) -> Result<Found, PhysicsError> {
     guard(problem)?;
     let last = (problem.bounds.k_top * problem.radius * (1.0 + BEYOND)) as usize + 3;
     let observed = Observed::here();
     observed.part(|| format!("{} angular orders", last + 1));
     let steps = observed.steps(last + 1);
-    let orders: Vec<OrderModes> = (0..=last)
+    let orders: Vec<Option<OrderModes>> = (0..=last)
         .into_par_iter()
         .map(|n| OrderModes::solve(problem, n))
         .inspect(|_| steps.take(1.0))
-        .collect::<Result<_, _>>()?;
-    let error = orders.iter().map(OrderModes::error).fold(0.0, f64::max);
+        .collect();
+    let of = |order: &Option<OrderModes>| order.as_ref().map_or(f64::INFINITY, OrderModes::error);
+    let error = orders.iter().map(of).fold(0.0, f64::max);
+    if error > problem.bounds.accuracy {
+        let (max_hz, expected) = (problem.bounds.max_hz, problem.bounds.accuracy);
+        return Err(PhysicsError::NotConverged { max_hz, expected, found: error });
+    }
+    let orders: Vec<OrderModes> = orders.into_iter().flatten().collect();
     let places = places(&orders);
     let square = |(n, m, _): &Place| orders[*n].squares[*m];
     let omegas = places.iter().map(|place| problem.bounds.loaded(square(place)).0).collect();

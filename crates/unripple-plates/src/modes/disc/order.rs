@@ -1,19 +1,13 @@
 //! The modes of one angular order.
 
-use super::super::best::Best;
 use super::super::ritz::{lowest, missing};
 use super::energy::Energy;
 use super::problem::Problem;
 use super::radial::Radial;
-use crate::PhysicsError;
 use unripple_linalg::{Mat, Par};
 
-/// Largest number of rounds, each with a quarter more functions. More would only delay the failure if the accuracy cannot be reached.
-const ROUNDS: usize = 10;
-/// Share of the least error so far that a round must fall below to count as progress.
-const STALLED: f64 = 0.7;
-/// Number of rounds without progress after which the accuracy counts as out of reach.
-const PATIENCE: usize = 2;
+/// Largest number of rounds, each with a quarter more functions. A first round is nearly always enough; more would only delay the failure.
+const ROUNDS: usize = 8;
 
 /// The modes of one angular order n: shapes Σ_j c_j f_j(r/a) cos nθ and, but for n = 0, sin nθ.
 #[derive(Debug)]
@@ -31,30 +25,20 @@ pub(super) struct OrderModes {
 }
 
 impl OrderModes {
-    /// Solves with more and more functions until the estimated error is at most the requested one.
-    pub(super) fn solve(problem: &Problem, order: usize) -> Result<Self, PhysicsError> {
-        let bounds = &problem.bounds;
+    /// Solves with more and more functions until the estimated error is at most the requested one, or rounding errors are most of it; `None` if
+    /// an eigenvalue iteration does not converge.
+    pub(super) fn solve(problem: &Problem, order: usize) -> Option<Self> {
         let mut count = first_count(problem, order);
-        let mut best = Best::up_to(bounds.most);
-        for _ in 0..ROUNDS {
-            let Some(found) = Self::with(problem, order, count) else { break };
-            let (error, rounded) = (found.error(), found.rounded);
-            if error <= bounds.accuracy {
-                return Ok(found);
-            }
-            best.take(found, error, STALLED);
-            // Once rounding errors are most of what is left, more functions only cost time.
-            if best.is_stalled(PATIENCE) || 2.0 * rounded > error {
+        let mut found = Self::with(problem, order, count)?;
+        for _ in 1..ROUNDS {
+            let error = found.error();
+            if error <= problem.bounds.accuracy || 2.0 * found.rounded > error {
                 break;
             }
             count += (count / 4).max(2);
+            found = Self::with(problem, order, count)?;
         }
-        let (max_hz, expected) = (bounds.max_hz, bounds.accuracy);
-        best.end().map(|(best, _)| best).map_err(|found| PhysicsError::NotConverged {
-            max_hz,
-            expected,
-            found,
-        })
+        Some(found)
     }
 
     /// Largest relative error of a frequency, estimated.
@@ -74,8 +58,8 @@ impl OrderModes {
         let between = lifted.as_ref().submatrix(n, 0, lifted.nrows() - n, n).to_owned();
         (0..lifted.nrows()).for_each(|i| lifted[(i, i)] -= top);
         let missing = missing(lifted, between.as_ref(), (&squares, &vectors), top, Par::Seq);
-        let rounded = squares.first().map_or(0.0, |lowest| energy.rounded(*lowest, top));
         let inside = squares.partition_point(|square| *square <= top);
+        let rounded = energy.rounded(rigid, (&squares[..inside], vectors.as_ref()));
         let mut coefficients = Mat::zeros(radial.count(), rigid + inside);
         (0..rigid).for_each(|m| coefficients[(m, m)] = 1.0);
         coefficients
@@ -93,11 +77,11 @@ impl OrderModes {
 }
 
 /// Number of functions to begin with: their degree n + 2j reaches ka and as far beyond as the Bessel functions of such waves take to fall to the
-/// accuracy, about exp(-(4√2/3) δ^1.5 / √(ka)) at the degree ka + δ (Debye's expansion; DLMF 10.19).
+/// accuracy, about exp(-(4√2/3) δ^1.5 / √(ka)) at the degree ka + δ (Debye's expansion; DLMF 10.19), and they resolve a boundary layer.
 fn first_count(problem: &Problem, order: usize) -> usize {
     let reach = problem.bounds.k_top * problem.radius;
     let digits = -problem.bounds.accuracy.ln() + 2.0;
     let beyond = (0.53 * digits).powf(2.0 / 3.0) * reach.max(1.0).cbrt();
     let degrees = reach + beyond - order as f64 - f64::from(2 * problem.zeros());
-    (0.5 * degrees).ceil().max(0.0) as usize + 4
+    (0.5 * degrees).max(problem.in_layer()).ceil().max(0.0) as usize + 4
 }

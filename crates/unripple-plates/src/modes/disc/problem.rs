@@ -4,6 +4,14 @@ use super::super::bounds::Bounds;
 use crate::PhysicsError;
 use unripple_core::{Edge, Shape, Surface, require};
 
+/// Functions that resolve a boundary layer, as a multiple of the root of the radius over its width. With half this value, a quarter more
+/// functions leave half of the error, and the estimate of it is too low.
+const RESOLVED: f64 = 1.5;
+
+/// Largest number of functions for a boundary layer. With twice this value, an angular order takes eight times as long; thinner layers are left
+/// to a mesh.
+const LAYERED: f64 = 1000.0;
+
 /// The eigenvalue problem of a round sheet with one edge condition all round.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Problem {
@@ -25,7 +33,24 @@ impl Problem {
         let tilted = matches!(edge, Edge::Elastic { tilt, .. } if tilt > 0.0)
             && bounds.medium.bending_stiffness == 0.0;
         let plain = surface.outline.holes.is_empty() && surface.sheet.uneven.is_uniform();
-        Ok((plain && !tilted).then_some(Self { radius, edge, bounds }))
+        let problem = Self { radius, edge, bounds };
+        Ok((plain && !tilted && problem.in_layer() <= LAYERED).then_some(problem))
+    }
+
+    /// Number of functions that resolve the boundary layer at a rim that resists rotation, of the width √(D/T): polynomials of degree N tell
+    /// places there apart that are a few N⁻² of the diameter from each other. From this number on, further ones gain more and more digits.
+    pub(super) fn in_layer(&self) -> f64 {
+        let medium = &self.bounds.medium;
+        let resists = match self.edge {
+            Edge::Clamped => true,
+            Edge::Elastic { tilt, .. } => tilt > 0.0,
+            Edge::Free | Edge::Supported => false,
+        };
+        if !resists || medium.bending_stiffness == 0.0 {
+            return 0.0;
+        }
+        let width = (medium.bending_stiffness / medium.tension).sqrt();
+        RESOLVED * (self.radius / width).sqrt()
     }
 
     /// Order of the zero of deflections at the rim.
@@ -36,11 +61,6 @@ impl Problem {
             Edge::Supported => 1,
             Edge::Clamped => most,
         }
-    }
-
-    /// Whether the rim is elastic.
-    pub(crate) fn has_springs(&self) -> bool {
-        self.springs().is_some()
     }
 
     /// Stiffness of springs at the rim against displacement (N/m²) and rotation (N).
