@@ -3,10 +3,10 @@
 use crate::TaskError;
 use crate::place::anywhere;
 use serde::Serialize;
-use unripple::act::recommended_window;
 use unripple::core::{Drive, ModalResponses, Point, Responses, Surface};
 use unripple::field::{Field, Instant};
 use unripple::focus::{Options, Target, focus};
+use unripple::physics::design::Windows;
 
 /// Cells of the evaluation grid per shortest wavelength: enough for ratios.
 const CELLS: f64 = 4.0;
@@ -35,7 +35,8 @@ impl Cost {
     pub fn of(surface: &Surface, before: &ModalResponses, now: ModalResponses) -> Result<Self, TaskError> {
         let at = anywhere(&surface.outline);
         let [before, now] = [before.clone(), now].map(Responses::Modal);
-        let window = recommended_window(surface, &before);
+        // That of a focus from the library, whatever was fitted.
+        let window = Windows::of(surface).recommended().seconds;
         let options = Options { window, limit: surface.emission.limit, ..Options::default() };
         let drive = focus(&before, &[Target::at(at)], &options).map_err(TaskError::input)?.drive;
         let [then, found] = [judged(&before, &drive, at, window)?, judged(&now, &drive, at, window)?];

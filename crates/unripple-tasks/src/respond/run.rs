@@ -3,9 +3,8 @@
 use super::{Ask, Report};
 use crate::numbers::above_zero;
 use crate::{Progress, Record, TaskError, filling, go_on, grid, judge, record};
-use unripple::act::{carries, unit};
+use unripple::act::{self, carries, unit};
 use unripple::core::{ModalResponses, Responses, Surface, window_samples};
-use unripple::physics::design::Windows;
 use unripple::physics::sample;
 use unripple_calibrate::measure::MOST_KEPT;
 use unripple_store::{Library, LibraryPlan};
@@ -73,7 +72,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 }
 
 fn plan(ask: &Ask, surface: &Surface, modal: &ModalResponses) -> Result<LibraryPlan, TaskError> {
-    let length = ask.length_s.unwrap_or_else(|| 2.0 * Windows::of(surface).recommended().seconds);
+    let recommended = || act::windows(surface, &Responses::Modal(modal.clone())).recommended().seconds;
+    let length = ask.length_s.unwrap_or_else(|| 2.0 * recommended());
     carries(&modal.conditions, length).map_err(|error| TaskError::Work(format!("`length_s`: {error}")))?;
     let points = grid::points(&surface.outline, ask.pitch_m)?;
     let conditions = modal.conditions.clone();

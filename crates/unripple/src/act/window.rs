@@ -1,6 +1,6 @@
 //! The focusing window that is used by default.
 
-use crate::core::{ModalResponses, Responses, Surface};
+use crate::core::{ModalResponses, Pole, Responses, Surface};
 use crate::physics::design::{Recommended, Windows};
 use std::f64::consts::TAU;
 
@@ -18,15 +18,16 @@ pub fn chosen_window(surface: &Surface, responses: &Responses) -> Recommended {
     chosen_among(&windows(surface, responses), responses)
 }
 
-/// The contrast of a surface with windows of several lengths, from its responses where these are of the modes of its band; else, as for
-/// measured responses, from those that it computes.
+/// The contrast of a surface with windows of several lengths, from its responses without fingers where these are of the modes of its band;
+/// else, as for measured responses, from those that it computes.
 pub fn windows(surface: &Surface, responses: &Responses) -> Windows {
     let own = |modal: &ModalResponses| {
         let top = TAU * surface.emission.band[1];
-        let within = modal.poles.iter().all(|pole| pole.omega <= top * (1.0 + 1e-9));
-        within
-            && modal.ports.len() == surface.actuators.len()
-            && modal.conditions.band == surface.emission.band
+        // Real poles, which do not oscillate, may lie anywhere.
+        let within = |pole: &Pole| pole.omega <= top * (1.0 + 1e-9) || pole.sigma >= pole.omega;
+        let same =
+            modal.ports.len() == surface.actuators.len() && modal.conditions.band == surface.emission.band;
+        same && modal.poles.iter().all(within)
     };
     match responses {
         Responses::Modal(modal) if own(modal) => Windows::on(surface, responses),

@@ -151,7 +151,8 @@ impl Windows {
         let key = || {
             let input: Vec<f64> =
                 responses.input.col_iter().flat_map(|column| column.iter()).copied().collect();
-            format!("contrast by window: {surface:?} {:?} {input:?}", responses.poles)
+            let of = (&responses.ports, &responses.conditions, &responses.poles);
+            format!("contrast by window: {surface:?} {of:?} {input:?}")
         };
         let found = Cached::here().result_by(
             key,
