@@ -50,6 +50,9 @@ use std::ffi::OsString;
 /// The commit that the program was built from; empty where that is not known.
 pub const COMMIT: &str = env!("UNRIPPLE_COMMIT");
 
+/// A hash of all sources that the program was built from; empty where that is not known.
+pub const SOURCES: &str = env!("UNRIPPLE_SOURCES");
+
 /// Does what a command line asks for, prints what comes of it, and returns the exit code: 0, 1 or 2. The first argument is the program's own
 /// name, as in [`std::env::args_os`]. To be called once in a process: it handles the signals that end the program, which end the process.
 ///
@@ -75,7 +78,7 @@ pub fn command_line(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn answer(given: &[OsString]) -> Result<(), CliError> {
-    unripple_tasks::record::built_from(COMMIT);
+    unripple_tasks::record::built_from(COMMIT, SOURCES);
     let (arguments, added) = config::arguments(given)?;
     lines::settle(match (arguments.verbose, arguments.quiet) {
         (true, _) => Talk::Verbose,

@@ -42,7 +42,7 @@ mod _unripple {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        unripple_tasks::record::built_from(unripple_cli::COMMIT);
+        unripple_tasks::record::built_from(unripple_cli::COMMIT, unripple_cli::SOURCES);
         crate::leaving::watch(module)
     }
 }

@@ -18,7 +18,8 @@ const HASH: usize = 32;
 const ENTRY: &str = "entry";
 const PART: &str = "part";
 
-/// Age after which a file that is being written counts as left by a program that was killed.
+/// Age after which a file that is being written counts as left by a program that was killed: to write 4 GB takes minutes on the slowest
+/// disks.
 const ABANDONED: Duration = Duration::from_secs(3600);
 
 /// A cache in a folder. Any number of programs may use it at once, and may be killed at any time: an entry is complete, or is no entry, and
@@ -75,9 +76,9 @@ impl DiskCache {
     /// What the cache holds.
     ///
     /// # Errors
-    /// That the folder is there and cannot be read.
+    /// If the folder exists but cannot be read.
     pub fn usage(&self) -> io::Result<Usage> {
-        let files = self.files(&[ENTRY, PART])?;
+        let files = self.files()?;
         let entries = files.iter().filter(|file| is(&file.path, ENTRY)).count();
         Ok(Usage { entries, bytes: files.iter().map(|file| file.bytes).sum() })
     }
@@ -85,10 +86,10 @@ impl DiskCache {
     /// Removes all entries, and returns what there was.
     ///
     /// # Errors
-    /// That the folder cannot be read, or a file cannot be removed.
+    /// If the folder cannot be read, or a file cannot be removed.
     pub fn empty(&self) -> io::Result<Usage> {
         let usage = self.usage()?;
-        for file in self.files(&[ENTRY, PART])? {
+        for file in self.files()? {
             gone(fs::remove_file(file.path))?;
         }
         Ok(usage)
@@ -104,8 +105,8 @@ impl DiskCache {
         self.folder.join(name).with_extension(ENTRY)
     }
 
-    /// The files of the folder whose names end in one of `ends`.
-    fn files(&self, ends: &[&str]) -> io::Result<Vec<Stored>> {
+    /// The cache's own files in the folder: no others, which somebody may have there, are looked at or removed.
+    fn files(&self) -> io::Result<Vec<Stored>> {
         let folder = match fs::read_dir(&self.folder) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
             folder => folder?,
@@ -114,8 +115,9 @@ impl DiskCache {
         for file in folder {
             let path = file?.path();
             // Another program may have removed it meanwhile.
-            if let Ok(about) = fs::metadata(&path)
-                && ends.iter().any(|end| is(&path, end))
+            if is_own(&path)
+                && let Ok(about) = fs::metadata(&path)
+                && about.is_file()
             {
                 files.push(Stored { path, bytes: about.len(), used: about.modified()? });
             }
@@ -140,20 +142,16 @@ impl DiskCache {
     /// Removes what was left by killed programs, and the oldest entries beyond the limit.
     fn shrink(&self) -> io::Result<()> {
         let now = SystemTime::now();
-        for part in self.files(&[PART])? {
-            if now.duration_since(part.used).is_ok_and(|age| age > ABANDONED) {
-                gone(fs::remove_file(part.path))?;
+        let mut files = self.files()?;
+        files.sort_by_key(|file| file.used);
+        let mut bytes: u64 = files.iter().map(|file| file.bytes).sum();
+        for file in files {
+            let left = now.duration_since(file.used).is_ok_and(|age| age > ABANDONED);
+            let part = is(&file.path, PART);
+            // What cannot be removed stays; others are removed in its place.
+            if (part && left || !part && bytes > self.limit) && gone(fs::remove_file(file.path)).is_ok() {
+                bytes -= file.bytes;
             }
-        }
-        let mut entries = self.files(&[ENTRY])?;
-        entries.sort_by_key(|entry| entry.used);
-        let mut bytes: u64 = entries.iter().map(|entry| entry.bytes).sum();
-        for entry in entries {
-            if bytes <= self.limit {
-                break;
-            }
-            gone(fs::remove_file(entry.path))?;
-            bytes -= entry.bytes;
         }
         Ok(())
     }
@@ -193,6 +191,14 @@ fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     file.write_all(MAGIC)?;
     file.write_all(&Sha256::digest(bytes))?;
     file.write_all(bytes)
+}
+
+/// Whether a file has a name that the cache gives: the hash of a key, and what an entry or one that is being written ends in.
+fn is_own(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let (hash, end) = name.split_at_checked(2 * HASH).unwrap_or_default();
+    let hashed = hash.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte));
+    hashed && !hash.is_empty() && (end == format!(".{ENTRY}") || is(path, PART))
 }
 
 /// Whether a path ends in `end`.

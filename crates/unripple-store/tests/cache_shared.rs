@@ -142,6 +142,36 @@ fn what_was_not_used_for_longest_goes_first() {
     fs::remove_dir_all(folder).unwrap();
 }
 
+#[test]
+fn files_of_others_are_left_alone() {
+    let folder = folder("others");
+    fs::create_dir_all(&folder).unwrap();
+    let others = ["film.iso.part", "notes.entry", "0123456789abcdef.entry"].map(|name| folder.join(name));
+    others.iter().for_each(|path| fs::write(path, "somebody's").unwrap());
+    let cache = DiskCache::new(&folder, 15_000, "test");
+    (0..3).for_each(|key| cache.write(&key.to_string(), &content(key, 10_000)));
+    assert_eq!(cache.usage().unwrap().entries, 1);
+    cache.empty().unwrap();
+    assert!(others.iter().all(|path| path.exists()));
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), others.len());
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_file_that_cannot_be_removed_stays_and_others_go() {
+    let folder = folder("stuck");
+    let cache = DiskCache::new(&folder, 25_000, "test");
+    cache.write("0", &content(0, 10_000));
+    let path = fs::read_dir(&folder).unwrap().next().unwrap().unwrap().path();
+    // A folder in the place of an entry is no file, and not the cache's.
+    fs::remove_file(&path).unwrap();
+    fs::create_dir(&path).unwrap();
+    (1..6).for_each(|key| cache.write(&key.to_string(), &content(key, 10_000)));
+    assert_eq!(cache.usage().unwrap().entries, 2);
+    assert!(cache.read("0").is_none() && cache.read("5").is_some());
+    fs::remove_dir_all(folder).unwrap();
+}
+
 #[cfg(unix)]
 #[test]
 fn where_nothing_can_be_written_nothing_is_stored() {

@@ -5,11 +5,10 @@ use serde::Serialize;
 use std::env;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::UNIX_EPOCH;
 use unripple::core::Cache;
 use unripple_store::{DiskCache, Usage};
 
-/// The variable that names the folder of the cache; empty for none.
+/// The variable that names the folder of the cache; empty or `off` for none.
 pub const VARIABLE: &str = "UNRIPPLE_CACHE";
 
 /// Largest size of the cache in bytes: the modes of some ten large surfaces. With half this value, five.
@@ -31,7 +30,7 @@ pub struct Report {
 }
 
 /// The cache of computed modes, which the programs of this user share; `None` if it is turned off, or there is no folder for it. Results of
-/// other versions and builds of the program are not used.
+/// programs that were built from other sources are not used, and a program of which these are not known uses none.
 ///
 /// The folder is the one that the variable `UNRIPPLE_CACHE` names, or `unripple` in the user's folder of caches (`$XDG_CACHE_HOME` or
 /// `~/.cache`; `%LOCALAPPDATA%` on Windows).
@@ -43,8 +42,11 @@ pub fn disk() -> Option<Arc<dyn Cache>> {
 /// What the cache holds; if `empty`, all of it is removed.
 ///
 /// ```
+/// use unripple_tasks::Report;
+///
 /// let report = unripple_tasks::cache::look(false)?;
-/// assert!(report.bytes == 0 || report.entries > 0 || !report.emptied);
+/// println!("{}", report.text());
+/// assert!(!report.emptied);
 /// # Ok::<(), unripple_tasks::TaskError>(())
 /// ```
 ///
@@ -63,7 +65,9 @@ pub fn look(empty: bool) -> Result<Report, TaskError> {
 impl crate::Report for Report {
     fn text(&self) -> String {
         let Some(folder) = &self.folder else {
-            return format!("the cache is turned off: {VARIABLE} is empty, or no folder is known for it");
+            return format!(
+                "the cache is turned off: {VARIABLE} is `off` or empty, or the program does not know where to keep it"
+            );
         };
         let megabytes = |bytes: u64| format!("{:.1} MB", bytes as f64 * 1e-6);
         let (folder, held) =
@@ -71,7 +75,7 @@ impl crate::Report for Report {
         match self.emptied {
             true => format!("{folder}: removed {held}"),
             false => format!(
-                "{folder}: {held} of at most {}\nremove them with unripple cache --empty; {VARIABLE}= computes everything anew",
+                "{folder}: {held} of at most {}\nremove them with unripple cache --empty; {VARIABLE}=off computes everything anew",
                 megabytes(self.limit_bytes)
             ),
         }
@@ -80,28 +84,19 @@ impl crate::Report for Report {
 
 fn found() -> Option<(PathBuf, DiskCache)> {
     let folder = folder()?;
-    let cache = DiskCache::new(&folder, LIMIT, program());
+    let program = format!("{} {}", env!("CARGO_PKG_VERSION"), crate::record::sources()?);
+    let cache = DiskCache::new(&folder, LIMIT, program);
     Some((folder, cache))
 }
 
 fn folder() -> Option<PathBuf> {
     let set = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     if env::var_os(VARIABLE).is_some() {
-        return set(VARIABLE);
+        return set(VARIABLE).filter(|folder| folder.as_os_str() != "off");
     }
     let caches = match cfg!(windows) {
         true => set("LOCALAPPDATA"),
         false => set("XDG_CACHE_HOME").or_else(|| set("HOME").map(|home| home.join(".cache"))),
     };
     caches.map(|caches| caches.join("unripple"))
-}
-
-/// The program, by its version and by the size and time of its file, which every build changes.
-fn program() -> String {
-    let file = env::current_exe().and_then(std::fs::metadata);
-    let built = file.ok().and_then(|file| {
-        let since = file.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
-        Some((file.len(), since.as_nanos()))
-    });
-    format!("{} {:?} {built:?}", env!("CARGO_PKG_VERSION"), crate::record::commit())
 }

@@ -111,7 +111,7 @@ pub const REPRODUCE: &str = "Examples:
 pub const RERUN: &str = "Examples:
   unripple rerun out/report.json -o again";
 
-/// For `cache`: its size, and all of it gone.
+/// For `cache`: to see how large it is, and to empty it.
 pub const CACHE: &str = "Examples:
   unripple cache
   unripple cache --empty";

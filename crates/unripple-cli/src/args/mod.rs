@@ -57,7 +57,7 @@ const EXITS: &str =
     "Options that are not given are taken from unripple/config.toml in the user's folder of
 configurations ($XDG_CONFIG_HOME or ~/.config; %APPDATA% on Windows), if it is there, or from the file that UNRIPPLE_CONFIG names.
 Modes that took more than a second are kept in unripple in the user's folder of caches ($XDG_CACHE_HOME or ~/.cache; %LOCALAPPDATA% on
-Windows), or in the folder that UNRIPPLE_CACHE names; if it is empty, nothing is kept (see unripple cache).
+Windows), or in the folder that UNRIPPLE_CACHE names; with UNRIPPLE_CACHE=off nothing is kept (see unripple cache).
 Exit codes: 0 the work is done; 1 it failed, or its result is doubtful; 2 bad usage or bad input.";
 
 /// The version, with the commit that the program was built from where that is known.

@@ -304,7 +304,11 @@ fn run(folder: &Scratch, arguments: &[String]) -> Output {
     let mut shell = Command::new("sh");
     shell.args(["-c", &limits, "sh"]).arg(own.get_program()).args(arguments);
     // Each thread reserves address space of its own.
-    shell.env("UNRIPPLE_CONFIG", "").env("RAYON_NUM_THREADS", "2").current_dir(folder.path());
+    shell
+        .env("UNRIPPLE_CONFIG", "")
+        .env("UNRIPPLE_CACHE", "")
+        .env("RAYON_NUM_THREADS", "2")
+        .current_dir(folder.path());
     shell.output().unwrap()
 }
 

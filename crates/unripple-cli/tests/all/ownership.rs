@@ -202,8 +202,12 @@ fn a_full_disk_leaves_the_earlier_run() {
     let limited = "trap '' XFSZ; ulimit -f 8; exec \"$@\"";
     let program = env!("CARGO_BIN_EXE_unripple");
     let arguments = ["-c", limited, "sh", program, "focus", &film, "--at", "40,50", "-o", &out];
-    let output =
-        std::process::Command::new("sh").args(arguments).env("UNRIPPLE_CONFIG", "").output().unwrap();
+    let output = std::process::Command::new("sh")
+        .args(arguments)
+        .env("UNRIPPLE_CONFIG", "")
+        .env("UNRIPPLE_CACHE", "")
+        .output()
+        .unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{errors}");
     assert!(errors.contains("cannot write to"), "{errors}");
@@ -279,7 +283,12 @@ fn readers_that_go_away_are_no_failure() {
     let closed = "\"$@\" 2>&1 | true; exit 0";
     let program = env!("CARGO_BIN_EXE_unripple");
     let arguments = ["-c", closed, "sh", program, "focus", &film, "--at", "62,90", "-o", &out];
-    std::process::Command::new("sh").args(arguments).env("UNRIPPLE_CONFIG", "").status().unwrap();
+    std::process::Command::new("sh")
+        .args(arguments)
+        .env("UNRIPPLE_CONFIG", "")
+        .env("UNRIPPLE_CACHE", "")
+        .status()
+        .unwrap();
     assert_eq!(scratch.names(), ["film.toml", "out"]);
     // The status of the program itself, both of whose ends nobody reads.
     let (reader, writer) = std::io::pipe().unwrap();

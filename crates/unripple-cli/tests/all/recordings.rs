@@ -23,7 +23,8 @@ fn rows(python: &Path, arguments: &[&str]) -> Vec<Value> {
     bench
         .arg(folder().join("run.py"))
         .args(["--program", env!("CARGO_BIN_EXE_unripple"), "--json"])
-        .env("UNRIPPLE_CONFIG", "");
+        .env("UNRIPPLE_CONFIG", "")
+        .env("UNRIPPLE_CACHE", "");
     let mut bench = bench.args(arguments).stdout(Stdio::piped()).spawn().unwrap();
     let lines = BufReader::new(bench.stdout.take().unwrap()).lines();
     let rows: Vec<Value> = lines

@@ -112,20 +112,25 @@ struct Recorded<'a, R> {
 /// Key of the log entry of a library for the record of the run that began it.
 const LOGGED: &str = "run";
 
-/// Commit of the program, which the program itself sets: it is built anew with each commit, this crate is
+/// Commit of the program and the hash of its sources, which the program itself sets: it is built anew with each of them, this crate is
 /// not.
-static COMMIT: OnceLock<&str> = OnceLock::new();
+static COMMIT: OnceLock<[&str; 2]> = OnceLock::new();
 
-/// Sets the commit that the program was built from, for records; an empty text leaves it unknown. Only the
-/// first call has an effect.
-pub fn built_from(commit: &'static str) {
+/// Sets the commit that the program was built from, for records, and a hash of its sources, for [the cache](crate::cache); an empty text leaves
+/// it unknown. Only the first call has an effect.
+pub fn built_from(commit: &'static str, sources: &'static str) {
     // A second call changes nothing, as promised.
-    let _ = COMMIT.set(commit);
+    let _ = COMMIT.set([commit, sources]);
 }
 
 /// The commit that the program was built from, where that is known.
-pub(crate) fn commit() -> Option<String> {
-    COMMIT.get().filter(|commit| !commit.is_empty()).map(|commit| (*commit).to_owned())
+fn commit() -> Option<String> {
+    COMMIT.get().map(|[commit, _]| *commit).filter(|commit| !commit.is_empty()).map(str::to_owned)
+}
+
+/// The hash of the sources that the program was built from, where that is known.
+pub(crate) fn sources() -> Option<&'static str> {
+    COMMIT.get().map(|[_, sources]| *sources).filter(|sources| !sources.is_empty())
 }
 
 impl Record {

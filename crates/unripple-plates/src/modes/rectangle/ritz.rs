@@ -42,7 +42,9 @@ impl Encoded for BlockModes {
         let (products, squares) = <(Vec<Product>, Vec<f64>)>::decode(from)?;
         let (bending_shares, coefficients) = <(Vec<f64>, Mat<f64>)>::decode(from)?;
         let [error, rounded] = Encoded::decode(from)?;
-        Some(Self { products, squares, bending_shares, coefficients, error, rounded })
+        let sizes = (coefficients.nrows(), coefficients.ncols(), bending_shares.len());
+        let fits = sizes == (products.len(), squares.len(), squares.len());
+        fits.then_some(Self { products, squares, bending_shares, coefficients, error, rounded })
     }
 }
 
