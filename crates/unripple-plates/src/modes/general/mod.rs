@@ -1,6 +1,7 @@
 //! Modes of any sheet by quintic finite elements on a mesh, refined until the error of the frequencies is
 //! the requested one.
 
+mod meshed;
 mod polygon;
 mod rates;
 mod sizing;
@@ -12,13 +13,12 @@ use super::eigen::sign;
 use super::found::Found;
 use super::memory::{GIB, MEMORY};
 use crate::PhysicsError;
-use crate::elements::{MeshShapes, Space};
+use crate::elements::MeshShapes;
 use crate::fabric::Fabric;
-use crate::mesh::Mesh;
 use crate::spectrum::{self, Pairs};
+use meshed::{mean_edge, meshed};
 use sizing::Plan;
 use solution::Solution;
-use unripple_core::plane::doubled;
 use unripple_core::{Cached, Edge, Encoded, Observed, Surface};
 use unripple_linalg::Mat;
 
@@ -172,25 +172,6 @@ fn modes(
     let bending_shares = (0..pairs.values.len()).map(share).collect();
     space.nodal(&mut pairs.vectors);
     Ok(Solution { plan: plan.clone(), space, pairs, bending_shares, edge: mean_edge(&mesh) })
-}
-
-/// The mesh of a sheet as planned, and the functions on it.
-fn meshed(surface: &Surface, fabric: &Fabric, plan: &Plan) -> Result<(Mesh, Space), PhysicsError> {
-    let mesh = Mesh::new(&surface.outline, &plan.sizing())?;
-    let space = Space::new(&mesh, fabric.bends()).with_kinks(&mesh, fabric);
-    Ok((mesh, space))
-}
-
-/// The geometric mean over the sheet's area of the edge length (m) of equilateral triangles as large as
-/// those of a mesh: it stands for most of the sheet, however many triangles there are at corners.
-fn mean_edge(mesh: &Mesh) -> f64 {
-    let (mut sheet, mut logs) = (0.0, 0.0);
-    for triangle in &mesh.triangles {
-        let [a, b, c] = triangle.vertices.map(|v| mesh.vertices[v].at);
-        let area = 0.5 * doubled(a, b, c);
-        (sheet, logs) = (sheet + area, logs + area * area.ln());
-    }
-    (f64::exp(logs / sheet) / 0.1875_f64.sqrt()).sqrt()
 }
 
 /// Sets the eigenvalues of rigid-body modes, which differ from 0 by rounding errors, to 0. The lowest

@@ -1,8 +1,8 @@
 //! The modes computed on one mesh.
 
+use super::meshed::{mean_edge, meshed};
 use super::rates::Level;
 use super::sizing::Plan;
-use super::{mean_edge, meshed};
 use crate::elements::Space;
 use crate::fabric::Fabric;
 use crate::modes::bounds::Bounds;
@@ -18,7 +18,7 @@ pub(super) struct Solution {
     pub(super) pairs: Pairs,
     /// Share of bending in each mode's elastic energy.
     pub(super) bending_shares: Vec<f64>,
-    /// Mean edge length, see [`mean_edge`](super::mean_edge), in metres.
+    /// Mean edge length, see [`mean_edge`], in metres.
     pub(super) edge: f64,
 }
 
