@@ -16,8 +16,8 @@ from unripple._report import Part, Report
 #: Options of the command line that are no options of a task: how its results are printed.
 _OF_THE_TERMINAL = {"json", "verbose", "quiet", "help", "version"}
 
-#: Commands of the command line that are no tasks: those of the shell, and the page, which is `Surface.view`.
-_NO_TASKS = {"view", "completions", "man", "help"}
+#: Commands of the command line that are no tasks: those of the shell and of what the machine keeps, and the page, which is `Surface.view`.
+_NO_TASKS = {"view", "cache", "completions", "man", "help"}
 
 #: Options of the command line that its command refuses: those of other targets than points and shapes.
 _REFUSED = {"compare": {"waveform", "silent", "path", "speed_mm_s", "level_mm_s"}}
