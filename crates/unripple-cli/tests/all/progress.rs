@@ -23,7 +23,9 @@ fn every_stage_of_a_focus_is_named_with_its_parts() {
     {
         assert!(lines.iter().any(|line| line == stage), "{stage}: {lines:#?}");
     }
-    for part in ["responses: mesh 2 of 8 at most: ", "window: mesh 1 of 8 at most: ", "evaluation: "] {
+    // The window is chosen from the same responses.
+    let evaluated = "responses for evaluation: mesh 1 of 8 at most: ";
+    for part in ["responses: mesh 2 of 8 at most: ", evaluated, "evaluation: "] {
         assert!(lines.iter().any(|line| line.starts_with(part)), "{part}: {lines:#?}");
     }
     assert!(
