@@ -61,7 +61,7 @@ use crate::focus::{Options, Target};
 /// let act = Act { surface: &surface, responses: &responses, targets: &targets, options: &options, level };
 /// let acted = act.run()?;
 /// let target = &acted.judged.measured.targets[0];
-/// assert!((target.contrast.unwrap_or(0.0) - 25.075).abs() < 0.001);
+/// assert!((target.contrast.unwrap_or(0.0) - 25.116).abs() < 0.001);
 /// assert!((target.peak_displacement_m.abs() / 40e-6 - 1.0).abs() < 1e-6);
 /// let report = acted.report(&surface, &options);
 /// assert!(report.text().contains("contrast"));
