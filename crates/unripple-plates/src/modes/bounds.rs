@@ -3,7 +3,7 @@
 use crate::damping::decay_rate;
 use crate::{Accuracy, Medium, PhysicsError};
 use std::f64::consts::TAU;
-use unripple_core::{Decay, Surface, require};
+use unripple_core::{Decay, Edge, Surface, require};
 
 /// Largest wavenumber at the top frequency, in rad/m: waves of 6 nm, shorter than the grains and molecules
 /// of any sheet. With twice this value, numbers of modes still fit into a machine word.
@@ -70,6 +70,17 @@ impl Bounds {
     /// ω² in vacuum at the top wavenumber, in 1/s².
     pub(crate) fn top_square(&self) -> f64 {
         self.vacuum().omega(self.k_top).powi(2)
+    }
+
+    /// Width √(D/T) in metres of the boundary layer at an edge, where bending gives way to tension: infinite without tension, 0 without bending
+    /// stiffness. `None` if the edge does not resist rotation.
+    pub(crate) fn layer(&self, edge: Edge) -> Option<f64> {
+        let resists = match edge {
+            Edge::Clamped => true,
+            Edge::Elastic { tilt, .. } => tilt > 0.0,
+            Edge::Free | Edge::Supported => false,
+        };
+        resists.then(|| (self.medium.bending_stiffness / self.medium.tension).sqrt())
     }
 
     /// The angular frequency in air (rad/s) of a mode, given its ω² in vacuum: that of a plane wave in air

@@ -40,17 +40,8 @@ impl Problem {
     /// Number of functions that resolve the boundary layer at a rim that resists rotation, of the width √(D/T): polynomials of degree N tell
     /// places there apart that are a few N⁻² of the diameter from each other. From this number on, further ones gain more and more digits.
     pub(super) fn in_layer(&self) -> f64 {
-        let medium = &self.bounds.medium;
-        let resists = match self.edge {
-            Edge::Clamped => true,
-            Edge::Elastic { tilt, .. } => tilt > 0.0,
-            Edge::Free | Edge::Supported => false,
-        };
-        if !resists || medium.bending_stiffness == 0.0 {
-            return 0.0;
-        }
-        let width = (medium.bending_stiffness / medium.tension).sqrt();
-        RESOLVED * (self.radius / width).sqrt()
+        let layer = self.bounds.layer(self.edge).filter(|width| *width > 0.0);
+        layer.map_or(0.0, |width| RESOLVED * (self.radius / width).sqrt())
     }
 
     /// Order of the zero of deflections at the rim.

@@ -121,16 +121,10 @@ pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
 /// Factor of the estimated error where boundary layers are not resolved. Error then falls in proportion to the number of polynomials at least, so
 /// that a quarter more of them take a fifth of it away, and not the half that the estimate counts on.
 fn slow(problem: &Problem, counts: [usize; 2]) -> f64 {
-    let medium = &problem.bounds.medium;
-    let width = (medium.bending_stiffness / medium.tension).sqrt();
-    let resists = |edge: &Edge| match edge {
-        Edge::Clamped => true,
-        Edge::Elastic { tilt, .. } => *tilt > 0.0,
-        Edge::Free | Edge::Supported => false,
-    };
     let unresolved = |axis: usize| {
-        let needed = RESOLVED * (problem.sides[axis] / width).sqrt();
-        problem.edges[axis].iter().any(resists) && (counts[axis] as f64) < needed
+        let needed = |width: f64| RESOLVED * (problem.sides[axis] / width).sqrt();
+        let mut layers = problem.edges[axis].iter().filter_map(|edge| problem.bounds.layer(*edge));
+        layers.any(|width| (counts[axis] as f64) < needed(width))
     };
     if unresolved(0) || unresolved(1) { 2.5 } else { 1.0 }
 }
