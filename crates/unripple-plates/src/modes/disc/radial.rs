@@ -1,6 +1,6 @@
 //! Functions of the radius for one angular order.
 
-use super::super::jacobi::coefficients;
+use super::super::jacobi::{self, coefficients};
 
 /// Functions f of ξ = r/a on [0, 1] for deflections f(ξ) cos nθ: f_j = ξ^n (1-ξ²)^p J_j(2ξ²-1), with J_j the Jacobi polynomials for which
 /// ∫f_i f_j ξ dξ = δ_ij (for p = 0 the radial parts of Zernike's polynomials; Zernike, *Physica* 1, 689, 1934).
@@ -50,40 +50,19 @@ impl Radial {
     /// Writes the values of all functions at ξ into `values`, of length [`Radial::count`].
     pub(super) fn at(&self, xi: f64, values: &mut [f64]) {
         let (s, n) = (xi * xi, self.order as i32);
-        let t = 2.0 * s - 1.0;
-        let mut value = self.first * xi.powi(n) * (1.0 - s).powi(self.zeros);
-        let mut below = 0.0;
-        for (j, slot) in values.iter_mut().enumerate() {
-            *slot = value;
-            let ((a, b), (next, _)) = (self.recurrence[j], self.recurrence[j + 1]);
-            (below, value) = (value, ((t - b) * value - a * below) / next);
-        }
+        let first = self.first * xi.powi(n) * (1.0 - s).powi(self.zeros);
+        jacobi::values(&self.recurrence, 2.0 * s - 1.0, first, values);
     }
 
     /// h, h_s and h_ss of each function f = ξ^n h(ξ²).
     fn polynomials(&self, s: f64) -> Vec<[f64; 3]> {
-        let (t, p) = (2.0 * s - 1.0, self.zeros);
-        let rest = 1.0 - s;
+        let (p, rest) = (self.zeros, 1.0 - s);
         let weight = [
             rest.powi(p),
             if p >= 1 { -f64::from(p) * rest.powi(p - 1) } else { 0.0 },
             if p >= 2 { f64::from(p * (p - 1)) * rest.powi(p - 2) } else { 0.0 },
         ];
-        let mut jet = weight.map(|w| w * self.first);
-        let mut below = [0.0; 3];
-        let mut all = Vec::with_capacity(self.count());
-        for j in 0..self.count() {
-            all.push(jet);
-            let ((a, b), (next, _)) = (self.recurrence[j], self.recurrence[j + 1]);
-            // t = 2s - 1, so that each derivative of (t - b) h has 2 h or 4 h_s.
-            let above = [
-                ((t - b) * jet[0] - a * below[0]) / next,
-                ((t - b) * jet[1] + 2.0 * jet[0] - a * below[1]) / next,
-                ((t - b) * jet[2] + 4.0 * jet[1] - a * below[2]) / next,
-            ];
-            (below, jet) = (jet, above);
-        }
-        all
+        jacobi::jets(&self.recurrence, 2.0 * s - 1.0, 2.0, weight.map(|w| w * self.first))
     }
 
     /// Each function at ξ, with no division by small radii.

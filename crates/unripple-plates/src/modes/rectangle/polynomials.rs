@@ -1,6 +1,6 @@
 //! Orthonormal Jacobi polynomials that satisfy the essential boundary conditions.
 
-use crate::modes::jacobi::coefficients;
+use crate::modes::jacobi::{self, coefficients};
 use unripple_core::Edge;
 
 /// Orthonormal polynomials on [-1, 1] that meet the essential conditions at both ends:
@@ -48,31 +48,14 @@ impl Polynomials {
 
     /// Writes the values of all polynomials at ξ into `values`, of length [`Polynomials::count`].
     pub(crate) fn at(&self, xi: f64, values: &mut [f64]) {
-        let mut value = self.first * (1.0 + xi).powi(self.low) * (1.0 - xi).powi(self.high);
-        let mut below = 0.0;
-        for (n, slot) in values.iter_mut().enumerate() {
-            *slot = value;
-            let ((a, b), (a_next, _)) = (self.recurrence[n], self.recurrence[n + 1]);
-            (below, value) = (value, ((xi - b) * value - a * below) / a_next);
-        }
+        let first = self.first * (1.0 + xi).powi(self.low) * (1.0 - xi).powi(self.high);
+        jacobi::values(&self.recurrence, xi, first, values);
     }
 
     /// Value, first and second derivative of each polynomial at ξ, by differentiating the recurrence.
     pub(crate) fn derivatives_at(&self, xi: f64) -> Vec<[f64; 3]> {
-        let mut jet = weight_jet(self.low, self.high, xi).map(|w| w * self.first);
-        let mut below = [0.0; 3];
-        let mut all = Vec::with_capacity(self.count());
-        for n in 0..self.count() {
-            all.push(jet);
-            let ((a, b), (a_next, _)) = (self.recurrence[n], self.recurrence[n + 1]);
-            let next = [
-                ((xi - b) * jet[0] - a * below[0]) / a_next,
-                ((xi - b) * jet[1] + jet[0] - a * below[1]) / a_next,
-                ((xi - b) * jet[2] + 2.0 * jet[1] - a * below[2]) / a_next,
-            ];
-            (below, jet) = (jet, next);
-        }
-        all
+        let first = weight_jet(self.low, self.high, xi).map(|w| w * self.first);
+        jacobi::jets(&self.recurrence, xi, 1.0, first)
     }
 }
 
