@@ -1,6 +1,6 @@
 //! A cache of results of long computations, which whoever runs them may provide.
 
-use crate::Encoded;
+use crate::{Encoded, scope};
 use std::cell::RefCell;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -82,8 +82,7 @@ impl Cached {
 
     /// Runs `work` on the current thread with this handle set for that thread, and restores the previous handle afterwards.
     pub fn during<T>(&self, work: impl FnOnce() -> T) -> T {
-        let _back = Back(HERE.replace(self.0.clone()));
-        work()
+        scope::during(&HERE, self.0.clone(), work)
     }
 
     /// The result of `work`, read from the cache if it holds it under `key`. The key has to contain the name of the computation and all that
@@ -128,15 +127,6 @@ impl Cached {
             cache.write(&key, &bytes);
         }
         Ok(found)
-    }
-}
-
-/// Restores the previous cache of a thread when it is dropped, also after a panic.
-struct Back(Option<Arc<dyn Cache>>);
-
-impl Drop for Back {
-    fn drop(&mut self) {
-        HERE.set(self.0.take());
     }
 }
 

@@ -45,6 +45,7 @@ mod pole;
 mod random;
 mod range;
 mod responses;
+mod scope;
 mod shape;
 mod side;
 mod surface;

@@ -1,6 +1,7 @@
 //! Progress of long computations: observers are notified of what is being computed, and how much of it is
 //! done.
 
+use crate::scope;
 use std::cell::RefCell;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -76,8 +77,7 @@ impl Observed {
     /// Runs `work` on the current thread with this handle set for that thread, and restores the previous
     /// handle afterwards.
     pub fn during<T>(&self, work: impl FnOnce() -> T) -> T {
-        let _back = Back(HERE.replace(self.0.clone()));
-        work()
+        scope::during(&HERE, self.0.clone(), work)
     }
 
     /// A handle to the same observer that prefixes the name of each part with `whole` and a colon.
@@ -107,15 +107,6 @@ impl Observed {
     /// A counter for a part that consists of `total` steps; the steps may run on several threads.
     pub fn steps(&self, total: usize) -> Steps {
         Steps { observed: self.clone(), total: total.max(1) as f64, taken: Mutex::new(0.0) }
-    }
-}
-
-/// Restores the previous observer of a thread when it is dropped, also after a panic.
-struct Back(Option<Arc<dyn Observer>>);
-
-impl Drop for Back {
-    fn drop(&mut self) {
-        HERE.set(self.0.take());
     }
 }
 
