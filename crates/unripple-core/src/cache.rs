@@ -10,6 +10,11 @@ pub trait Cache: Send + Sync {
     /// The bytes that were stored under a key; `None` if there are none, or if they are damaged.
     fn read(&self, key: &str) -> Option<Vec<u8>>;
 
+    /// Whether there are bytes under a key, as far as can be told without reading them.
+    fn holds(&self, key: &str) -> bool {
+        self.read(key).is_some()
+    }
+
     /// Stores bytes under a key, or does nothing if they cannot be stored.
     fn write(&self, key: &str, bytes: &[u8]);
 
@@ -83,6 +88,11 @@ impl Cached {
     /// Runs `work` on the current thread with this handle set for that thread, and restores the previous handle afterwards.
     pub fn during<T>(&self, work: impl FnOnce() -> T) -> T {
         scope::during(&HERE, self.0.clone(), work)
+    }
+
+    /// Whether the cache holds a result under `key`.
+    pub fn holds(&self, key: impl FnOnce() -> String) -> bool {
+        self.0.as_ref().is_some_and(|cache| cache.holds(&key()))
     }
 
     /// The result of `work`, read from the cache if it holds it under `key`. The key has to contain the name of the computation and all that

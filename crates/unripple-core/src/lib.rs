@@ -29,6 +29,7 @@
 //! ```
 
 mod cache;
+mod cost;
 mod cycle;
 mod device;
 mod drive;
@@ -36,6 +37,7 @@ mod encoded;
 mod error;
 mod laminate;
 mod material;
+mod memory;
 mod observer;
 mod outline;
 mod patch;
@@ -53,6 +55,7 @@ mod touch;
 mod uneven;
 
 pub use cache::{Cache, Cached};
+pub use cost::Cost;
 pub use cycle::{Cycle, Work};
 pub use device::{CHECK_INTERVAL, Device, DeviceError, Layout, PROBE, Server, State, Status};
 pub use drive::Drive;
@@ -60,6 +63,7 @@ pub use encoded::{Encoded, encode_matrix};
 pub use error::CoreError;
 pub use laminate::{Laminate, Layer};
 pub use material::{MATERIALS, Material};
+pub use memory::Memory;
 pub use observer::{Observed, Observer, Steps};
 pub use outline::{Edge, Edges, Hole, Loop, Outline};
 pub use patch::Patch;

@@ -1,6 +1,9 @@
 //! The errors of computing modes and responses.
 
-use unripple_core::{OutOfRange, OutlineFault};
+use unripple_core::{Memory, OutOfRange, OutlineFault};
+
+/// Bytes of a GiB, 2³⁰ by definition.
+const GIB: f64 = (1u64 << 30) as f64;
 
 /// Why modes, responses or design figures of a surface could not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -21,7 +24,7 @@ pub enum PhysicsError {
     Range(#[from] OutOfRange),
     /// The problem needs more memory than is allowed.
     #[error(
-        "modes up to {max_hz} Hz: expected at most {limit_gib:.1} GiB, found {needed_gib:.1} GiB for {unknowns} unknowns; about {nearest_hz:.0} Hz fits"
+        "modes up to {max_hz} Hz: expected at most {limit_gib:.2} GiB, found {needed_gib:.2} GiB for {unknowns} unknowns; about {nearest_hz:.0} Hz fits, and a coarser accuracy may need less"
     )]
     TooLarge {
         /// The requested top frequency, in Hz.
@@ -61,6 +64,15 @@ pub enum PhysicsError {
         /// The reason of the failure, in words.
         found: String,
     },
+}
+
+impl PhysicsError {
+    /// The error for modes up to `max_hz` (Hz) with so many unknowns that `needed` bytes would exceed [the memory allowed](Memory::here);
+    /// modes up to `nearest_hz` (Hz) would fit.
+    pub fn too_large(max_hz: f64, unknowns: usize, needed: f64, nearest_hz: f64) -> Self {
+        let limit_gib = Memory::here().bytes() / GIB;
+        Self::TooLarge { max_hz, unknowns, needed_gib: needed / GIB, limit_gib, nearest_hz }
+    }
 }
 
 impl From<Vec<OutlineFault>> for PhysicsError {

@@ -177,6 +177,10 @@ impl Cache for DiskCache {
         Some(bytes)
     }
 
+    fn holds(&self, key: &str) -> bool {
+        self.path(key).is_file()
+    }
+
     fn write(&self, key: &str, bytes: &[u8]) {
         if bytes.len() as u64 <= self.limit {
             // A result that is not stored is computed again.

@@ -8,7 +8,6 @@ mod found;
 mod general;
 mod jacobi;
 mod legendre;
-mod memory;
 mod rectangle;
 mod ritz;
 
@@ -16,7 +15,7 @@ use crate::{Accuracy, PhysicsError};
 use bounds::Bounds;
 use found::Found;
 use std::f64::consts::TAU;
-use unripple_core::{Point, Pole, Shapes, Surface};
+use unripple_core::{Cost, Point, Pole, Shapes, Surface};
 use unripple_linalg::Mat;
 
 pub use legendre::gauss;
@@ -68,7 +67,7 @@ impl Modes {
     /// # Errors
     /// [`PhysicsError::Range`] for values out of range; [`PhysicsError::Outline`] for an invalid outline;
     /// [`PhysicsError::Unsupported`] for a sheet without restoring force, with free edges only and without bending stiffness;
-    /// [`PhysicsError::TooLarge`] if more than 4 GiB of memory would be needed; [`PhysicsError::NotConverged`] if refinement does not
+    /// [`PhysicsError::TooLarge`] if more memory would be needed than [is allowed](unripple_core::Memory); [`PhysicsError::NotConverged`] if refinement does not
     /// reach an accuracy that is accepted; [`PhysicsError::Solver`] if the eigenvalue problem of a mesh cannot be solved.
     ///
     /// ```
@@ -104,6 +103,55 @@ impl Modes {
             .map(|(omega, share)| Pole::new(*omega, bounds.decay_rate(&surface.sheet.decay, *omega, *share)))
             .collect();
         Ok(Self { poles, bending_shares: found.bending_shares, shapes: found.shapes, error: found.error })
+    }
+
+    /// What [`Modes::solve`] will cost, before any mesh is made or problem solved; an estimate, mostly within a factor of two.
+    ///
+    /// # Errors
+    /// Those of [`Modes::solve`] that are known before solving, such as [`PhysicsError::TooLarge`].
+    ///
+    /// ```
+    /// # use unripple_core::*;
+    /// # use unripple_plates::Modes;
+    /// # let sheet = Sheet { material: "BoPET".into(), young: 4e9, density: 1400.0, poisson: 0.3, strength: None,
+    /// #     thickness: 0.125e-3, tension: 200.0, decay: Decay::Time(0.07), air: Air::None,
+    /// #     uneven: Uneven::default() };
+    /// # let surface = Surface { name: "film".into(), outline: Outline::new(Shape::Stadium { straight: 0.1, radius: 0.05 }),
+    /// #     sheet, emission: Emission { band: [0.0, 3e3], rate: 48e3, limit: 1.0, rms_limit: None },
+    /// #     finger: Finger::default(), accuracy: None, actuators: vec![] };
+    /// let [low, high] = [1000.0, 3000.0].map(|top| Modes::cost(&surface, top, 1e-4).unwrap());
+    /// assert!(low.seconds < high.seconds && low.bytes < high.bytes && high.bytes < 1e9);
+    /// ```
+    pub fn cost(surface: &Surface, max_hz: f64, accuracy: impl Into<Accuracy>) -> Result<Cost, PhysicsError> {
+        let bounds = Bounds::of(surface, max_hz, accuracy.into())?;
+        rests(surface, &bounds)?;
+        if let Some(rectangle) = rectangle::Problem::of(surface, bounds)? {
+            return rectangle::cost(&rectangle);
+        }
+        match disc::Problem::of(surface, bounds)? {
+            // Round sheets take milliseconds.
+            Some(_) => Ok(Cost::default()),
+            None => general::estimate(surface, &bounds),
+        }
+    }
+
+    /// Whether a [cache](unripple_core::Cached) holds what [`Modes::solve`] would solve for.
+    ///
+    /// # Errors
+    /// Those of [`Modes::solve`] for values out of range.
+    pub fn are_cached(
+        surface: &Surface,
+        max_hz: f64,
+        accuracy: impl Into<Accuracy>,
+    ) -> Result<bool, PhysicsError> {
+        let bounds = Bounds::of(surface, max_hz, accuracy.into())?;
+        if let Some(rectangle) = rectangle::Problem::of(surface, bounds)? {
+            return Ok(rectangle::are_cached(&rectangle));
+        }
+        match disc::Problem::of(surface, bounds)? {
+            Some(_) => Ok(false),
+            None => general::are_cached(surface, &bounds),
+        }
     }
 
     /// Natural frequencies ω/2π, ascending, in Hz.

@@ -25,7 +25,7 @@ mod times;
 mod tests;
 pub(crate) use error::SpectrumError;
 pub(crate) use lifted::lifted_works;
-pub(crate) use memory::estimate_bytes;
+pub(crate) use memory::{estimate_bytes, seconds};
 use pencil::Pencil;
 use plan::Plan;
 use rayon::prelude::*;

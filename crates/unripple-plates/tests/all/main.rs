@@ -3,6 +3,7 @@
 mod air_oracle;
 mod discs_oracle;
 mod error_bounds;
+mod memory;
 #[path = "../modes_common/mod.rs"]
 mod modes_common;
 mod modes_convergence;

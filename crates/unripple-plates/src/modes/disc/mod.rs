@@ -7,13 +7,12 @@ mod radial;
 mod shapes;
 
 use super::found::Found;
-use super::memory::{GIB, MEMORY};
 use crate::PhysicsError;
 use order::OrderModes;
 use rayon::prelude::*;
 use shapes::{Place, Round};
 use std::f64::consts::TAU;
-use unripple_core::Observed;
+use unripple_core::{Memory, Observed};
 
 pub(super) use problem::Problem;
 
@@ -81,15 +80,11 @@ fn places(orders: &[OrderModes]) -> Vec<Place> {
 fn guard(problem: &Problem) -> Result<(), PhysicsError> {
     let reach = problem.bounds.k_top * problem.radius;
     let needed = BYTES * reach.powi(3);
-    if needed <= MEMORY {
+    let memory = Memory::here();
+    if memory.holds(needed) {
         return Ok(());
     }
-    let nearest = problem.bounds.k_top * (MEMORY / needed).cbrt();
-    Err(PhysicsError::TooLarge {
-        max_hz: problem.bounds.max_hz,
-        unknowns: (0.5 * reach) as usize,
-        needed_gib: needed / GIB,
-        limit_gib: MEMORY / GIB,
-        nearest_hz: problem.bounds.medium.omega(nearest) / TAU,
-    })
+    let nearest = problem.bounds.k_top * (memory.bytes() / needed).cbrt();
+    let nearest_hz = problem.bounds.medium.omega(nearest) / TAU;
+    Err(PhysicsError::too_large(problem.bounds.max_hz, (0.5 * reach) as usize, needed, nearest_hz))
 }

@@ -11,7 +11,6 @@ use super::best::Best;
 use super::bounds::Bounds;
 use super::eigen::sign;
 use super::found::Found;
-use super::memory::{GIB, MEMORY};
 use crate::PhysicsError;
 use crate::elements::MeshShapes;
 use crate::fabric::Fabric;
@@ -19,7 +18,7 @@ use crate::spectrum::{self, Pairs};
 use meshed::{mean_edge, meshed};
 use sizing::Plan;
 use solution::Solution;
-use unripple_core::{Cached, Edge, Encoded, Observed, Surface};
+use unripple_core::{Cached, Cost, Edge, Encoded, Memory, Observed, Surface};
 use unripple_linalg::Mat;
 
 /// Largest number of meshes solved after the first two, each finer than the mesh before by a factor of 1.25
@@ -40,9 +39,16 @@ const STALLED: f64 = 0.8;
 /// convergence was measured too high by chance, the next round looks worse.
 const PATIENCE: usize = 2;
 
-/// Factor between one accuracy and the next that is tried if meshes for the first would not fit in memory.
+/// Memory within which meshes are made as fine as the accuracy aimed at asks, in bytes: they take minutes. Where an accuracy that is accepted
+/// needs more, all the memory allowed may be taken. With twice this value, the same surfaces take three times as long.
+const AIMED: f64 = 4.0 * (1u64 << 30) as f64;
+
+/// Factor between one accuracy and the next that is tried if meshes for the first would not fit in [`AIMED`].
 /// With twice this value, the accuracy may be six times worse than memory allows.
 const RELAXED: f64 = 3.0;
+
+/// Processor time of meshing and of assembling matrices, in seconds for each unknown.
+const MESHING: f64 = 6e-5;
 
 /// Largest residual of an eigenpair; the relative error of its eigenvalue is about its square, 1e-10. Ten
 /// times more would allow errors of 1e-8.
@@ -67,7 +73,7 @@ pub(super) fn solve(surface: &Surface, bounds: &Bounds) -> Result<Found, Physics
 fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), PhysicsError> {
     let fabric = Fabric::of(surface)?;
     Cached::here().result_by(
-        || format!("modes on a mesh: {:?} {:?} {bounds:?}", surface.outline, surface.sheet),
+        || key(surface, bounds),
         || refined(surface, &fabric, bounds),
         |(solution, error), to| {
             error.encode(to);
@@ -80,9 +86,23 @@ fn converged(surface: &Surface, bounds: &Bounds) -> Result<(Solution, f64), Phys
     )
 }
 
+/// The key of a solution in a cache.
+fn key(surface: &Surface, bounds: &Bounds) -> String {
+    format!("modes on a mesh: {:?} {:?} {bounds:?}", surface.outline, surface.sheet)
+}
+
+/// Whether the modes are in the cache.
+pub(super) fn are_cached(surface: &Surface, bounds: &Bounds) -> Result<bool, PhysicsError> {
+    let key = match polygon::membrane(surface, bounds)? {
+        Some((membrane, as_membrane)) => key(&membrane, &as_membrane),
+        None => key(surface, bounds),
+    };
+    Ok(Cached::here().holds(|| key))
+}
+
 /// Solves on finer and finer meshes until the error is small enough.
 fn refined(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<(Solution, f64), PhysicsError> {
-    let plan = affordable(surface, fabric, bounds)?;
+    let (plan, memory) = affordable(surface, fabric, bounds)?;
     let coarse = plan.coarser(COARSER);
     let mesh = |number: usize| Observed::here().within(format!("mesh {number} of {} at most", 2 + ROUNDS));
     let mut levels = Vec::new();
@@ -91,12 +111,12 @@ fn refined(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<(Solut
     }
     let third = coarse.coarser(1.0 / rates::finer(&levels, bounds.accuracy));
     // From levels that tell no rate the third has no edge length, and no cost.
-    let fits = cost(surface, &third).is_ok_and(|(_, needed)| needed <= MEMORY);
+    let fits = cost(surface, &third).is_ok_and(|(_, needed)| memory.holds(needed));
     let mut plan = if fits { third } else { plan };
     let mut best = Best::up_to(bounds.most);
     for _ in 0..ROUNDS {
         // The first of these plans is known to fit.
-        if levels.len() > 2 && cost(surface, &plan)?.1 > MEMORY {
+        if levels.len() > 2 && !memory.holds(cost(surface, &plan)?.1) {
             // Where meshes before tell their error, what is out of reach is the accuracy.
             if best.is_any() {
                 break;
@@ -124,23 +144,27 @@ fn refined(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<(Solut
 }
 
 /// The plan for the accuracy aimed at, or, if that needs too much memory, for the best accuracy that memory
-/// allows and that is accepted.
+/// allows and that is accepted; with the memory that finer meshes may take.
 ///
 /// # Errors
-/// [`PhysicsError::TooLarge`] for the accuracy aimed at where there is none, so that nothing is solved in vain.
-fn affordable(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<Plan, PhysicsError> {
+/// [`PhysicsError::TooLarge`] where there is none, so that nothing is solved in vain.
+fn affordable(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<(Plan, Memory), PhysicsError> {
+    let all = Memory::here();
+    let aimed = Memory::of(AIMED.min(all.bytes()));
     let with = |accuracy: f64| Plan::new(surface, fabric, &Bounds { accuracy, ..*bounds });
-    let first = with(bounds.accuracy)?;
-    let mut plan = first.clone();
     let mut accuracy = bounds.accuracy;
-    while cost(surface, &plan)?.1 > MEMORY {
-        accuracy *= RELAXED;
-        if accuracy > bounds.most {
-            return Err(too_large(surface, bounds, &first)?);
+    while accuracy <= bounds.most {
+        let plan = with(accuracy)?;
+        if aimed.holds(cost(surface, &plan)?.1) {
+            return Ok((plan, aimed));
         }
-        plan = with(accuracy)?;
+        accuracy *= RELAXED;
     }
-    Ok(plan)
+    let least = with(bounds.most)?;
+    match all.holds(cost(surface, &least)?.1) {
+        true => Ok((least, all)),
+        false => Err(too_large(surface, bounds, &least)?),
+    }
 }
 
 /// Meshes a sheet as planned, assembles its matrices and solves for the modes below the top. The plan must be known to fit in memory.
@@ -216,6 +240,26 @@ fn found(solution: Solution, bounds: &Bounds, error: f64) -> Found {
     Found { omegas, bending_shares, shapes, error }
 }
 
+/// The cost of a solution, on the three meshes that most surfaces take.
+pub(super) fn estimate(surface: &Surface, bounds: &Bounds) -> Result<Cost, PhysicsError> {
+    let (membrane, as_membrane);
+    let (surface, bounds) = match polygon::membrane(surface, bounds)? {
+        Some(found) => {
+            (membrane, as_membrane) = found;
+            (&membrane, &as_membrane)
+        }
+        None => (surface, bounds),
+    };
+    let (fine, _) = affordable(surface, &Fabric::of(surface)?, bounds)?;
+    let coarse = fine.coarser(COARSER);
+    let each = |plan: &Plan| {
+        let (unknowns, bytes) = cost(surface, plan)?;
+        let n = unknowns as f64;
+        Ok(Cost { seconds: spectrum::seconds(n, plan.modes() as f64) + MESHING * n, bytes })
+    };
+    [coarse.coarser(COARSER), coarse, fine].iter().map(each).sum()
+}
+
 /// Approximate number of unknowns of a plan, and the memory (bytes) that a solution takes.
 fn cost(surface: &Surface, plan: &Plan) -> Result<(usize, f64), PhysicsError> {
     let unknowns = plan.unknowns(&surface.outline)?;
@@ -229,13 +273,8 @@ fn too_large(surface: &Surface, bounds: &Bounds, plan: &Plan) -> Result<PhysicsE
     let (mut fits, mut fails) = (0.0, 1.0);
     for _ in 0..40 {
         let share = 0.5 * (fits + fails);
-        if cost(surface, &plan.lower(share))?.1 <= MEMORY { fits = share } else { fails = share }
+        let needed = cost(surface, &plan.lower(share))?.1;
+        if Memory::here().holds(needed) { fits = share } else { fails = share }
     }
-    Ok(PhysicsError::TooLarge {
-        max_hz: bounds.max_hz,
-        unknowns,
-        needed_gib: needed / GIB,
-        limit_gib: MEMORY / GIB,
-        nearest_hz: bounds.max_hz * fits,
-    })
+    Ok(PhysicsError::too_large(bounds.max_hz, unknowns, needed, bounds.max_hz * fits))
 }

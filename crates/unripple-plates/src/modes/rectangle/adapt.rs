@@ -1,6 +1,6 @@
 //! Rayleigh-Ritz basis enlarged until frequencies converge.
 
-use super::super::ritz::ABOVE;
+use super::cost;
 use super::line::Line;
 use super::plate::Plate;
 use super::polynomials::order;
@@ -12,8 +12,6 @@ use super::springs::Springs;
 use crate::PhysicsError;
 use crate::modes::best::Best;
 use crate::modes::bounds::Bounds;
-use crate::modes::memory::{GIB, MEMORY};
-use crate::spectrum;
 use rayon::prelude::*;
 use std::f64::consts::{PI, SQRT_2};
 use unripple_core::{Edge, Encoded, Observed};
@@ -44,7 +42,7 @@ const MANY: f64 = 50.0;
 const SHARE: f64 = 0.05;
 
 /// Number of functions for each further one by which the error is estimated. With twice this value, fewer are seen to be missing.
-const FURTHER: usize = 4;
+pub(super) const FURTHER: usize = 4;
 
 /// Wavenumber of the functions with values at an end where they couple with few others, relative to that at the top frequency: they fade
 /// within its inverse. Where it is 2 to 8, rounding errors in vectors stay below 1e-9; at 1 and 16 they are twenty times as large.
@@ -87,7 +85,7 @@ pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
     let mut best = Best::up_to(problem.bounds.most);
     let observed = Observed::here();
     for round in 1..=ROUNDS {
-        match guard(problem, counts) {
+        match cost::guard(problem, counts) {
             // What is out of reach is the accuracy.
             Err(PhysicsError::TooLarge { .. }) if best.is_any() => break,
             guarded => guarded?,
@@ -277,60 +275,4 @@ fn rigid(plate: &Plate, counts: [usize; 2]) -> Vec<BlockModes> {
             rounded: 0.0,
         })
         .collect()
-}
-
-/// Refuses a problem that would not fit in memory, before any is allocated.
-fn guard(problem: &Problem, counts: [usize; 2]) -> Result<(), PhysicsError> {
-    let (unknowns, needed) = cost(problem, counts, problem.bounds.k_top);
-    if needed <= MEMORY {
-        return Ok(());
-    }
-    let (mut fits, mut fails) = (0.0, problem.bounds.k_top);
-    for _ in 0..60 {
-        let k = 0.5 * (fits + fails);
-        if cost(problem, first_counts(problem, k), k).1 <= MEMORY { fits = k } else { fails = k }
-    }
-    Err(PhysicsError::TooLarge {
-        max_hz: problem.bounds.max_hz,
-        unknowns,
-        needed_gib: needed / GIB,
-        limit_gib: MEMORY / GIB,
-        nearest_hz: problem.bounds.medium.omega(fits) / (2.0 * PI),
-    })
-}
-
-/// Number of unknowns of the largest symmetry class, and memory in bytes for the solution: what each class takes while it is solved, and
-/// all mode shapes, twice. `k` is the wavenumber at the top, in rad/m.
-fn cost(problem: &Problem, counts: [usize; 2], k: f64) -> (usize, f64) {
-    let class = |axis: usize| {
-        let [low, high] = problem.edges[axis];
-        match (low == high, low) {
-            (true, Edge::Supported) => (1, counts[axis]),
-            (true, _) => (counts[axis].div_ceil(2), 2),
-            (false, _) => (counts[axis], 1),
-        }
-    };
-    let ((x, nx), (y, ny)) = (class(0), class(1));
-    let halved = problem.square() && nx == 1;
-    let unknowns = x.saturating_mul(y).div_ceil(1 + usize::from(halved));
-    let blocks = nx * ny * (1 + usize::from(halved));
-    let at_once = rayon::current_num_threads().min(blocks) as f64;
-    let (n, modes) = (unknowns as f64, modes_of_class(problem.sides, k, blocks).min(unknowns as f64));
-    let each = if unknowns < LARGE {
-        // Six square matrices.
-        48.0 * n * n
-    } else {
-        // With the further functions: vectors, their products with K and M, and what K - σM makes of these.
-        let all = n * (1.0 + 1.0 / FURTHER as f64).powi(2);
-        spectrum::estimate_bytes(all as usize, modes as usize) + 48.0 * all * modes
-    };
-    (unknowns, each * at_once + 16.0 * n * modes * blocks as f64)
-}
-
-/// Number of modes with wavenumbers up to `k` (rad/m) and the share above the top that each of `blocks` symmetry classes computes, by
-/// Weyl's law for a free rim.
-fn modes_of_class([x, y]: [f64; 2], k: f64, blocks: usize) -> f64 {
-    // ω² grows as k² on a membrane, more steeply on a plate.
-    let k = k * (1.0 + ABOVE).sqrt();
-    (k * k * x * y / (4.0 * PI) + k * (x + y) / PI + 4.0) / blocks as f64
 }

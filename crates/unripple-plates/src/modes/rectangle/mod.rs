@@ -1,6 +1,7 @@
 //! Modes of rectangles: in closed form, or by the Rayleigh-Ritz method with products of one function along each side.
 
 mod adapt;
+mod cost;
 mod integrated;
 mod line;
 mod order;
@@ -22,6 +23,7 @@ use separable::{Separable, Wave};
 use unripple_core::{Cached, Point, Shapes};
 use unripple_linalg::Mat;
 
+pub(super) use cost::cost;
 pub(super) use problem::Problem;
 
 /// Modes of a rectangle: in closed form where they are products of sines and cosines, otherwise by the Ritz
@@ -88,9 +90,19 @@ fn separable(problem: &Problem) -> Result<Found, PhysicsError> {
     Ok(Found { omegas, bending_shares, shapes: Box::new(shapes), error: 0.0 })
 }
 
+/// The key of a problem's solution in a cache.
+fn key(problem: &Problem) -> String {
+    format!("modes of a rectangle: {problem:?}")
+}
+
+/// Whether the modes are in the cache.
+pub(super) fn are_cached(problem: &Problem) -> bool {
+    !problem.separable() && Cached::here().holds(|| key(problem))
+}
+
 /// Modes by the Ritz method, in order of frequency, with the added mass of air and a definite sign.
 fn ritz(problem: &Problem) -> Result<Found, PhysicsError> {
-    let key = || format!("modes of a rectangle: {problem:?}");
+    let key = || key(problem);
     let adapt::Solution { counts, blocks, error } = Cached::here().result(key, || adapt::solve(problem))?;
     let lines = adapt::lines(problem, counts);
     let (squares, places) = order::ascending(&blocks);

@@ -3,10 +3,9 @@
 use super::line::sines;
 use super::problem::Problem;
 use crate::PhysicsError;
-use crate::modes::memory::{GIB, MEMORY};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
-use unripple_core::{Edge, Point};
+use unripple_core::{Edge, Memory, Point};
 use unripple_linalg::Mat;
 
 /// Approximate number of bytes for each mode, by which a problem too large for the allowed memory is refused: mostly the values
@@ -128,16 +127,14 @@ impl Separable {
         let bytes =
             |k: f64| BYTES_PER_MODE * problem.sides.iter().map(|side| side * k / PI + 1.5).product::<f64>();
         let needed = bytes(problem.bounds.k_top);
-        if needed <= MEMORY {
+        let memory = Memory::here();
+        if memory.holds(needed) {
             return Ok(());
         }
-        Err(PhysicsError::TooLarge {
-            max_hz: problem.bounds.max_hz,
-            unknowns: (needed / BYTES_PER_MODE) as usize,
-            needed_gib: needed / GIB,
-            limit_gib: MEMORY / GIB,
-            nearest_hz: problem.bounds.medium.omega(problem.bounds.k_top * (MEMORY / needed).sqrt()) / TAU,
-        })
+        let nearest = problem.bounds.k_top * (memory.bytes() / needed).sqrt();
+        let unknowns = (needed / BYTES_PER_MODE) as usize;
+        let nearest_hz = problem.bounds.medium.omega(nearest) / TAU;
+        Err(PhysicsError::too_large(problem.bounds.max_hz, unknowns, needed, nearest_hz))
     }
 
     /// Mass-normalised shapes at a point, in 1/√kg.

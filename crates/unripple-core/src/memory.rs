@@ -1,0 +1,60 @@
+//! The memory that computations may take.
+
+use crate::scope;
+use std::cell::RefCell;
+
+/// Memory that a computation may take where nothing else is said, in bytes: 4 GiB, which a small machine has. With half this value, some
+/// surfaces that fit would be refused.
+const USUAL: f64 = 4.0 * (1u64 << 30) as f64;
+
+thread_local! {
+    /// The memory that computations begun on this thread may take; `None` for the usual one.
+    static HERE: RefCell<Option<Memory>> = const { RefCell::new(None) };
+}
+
+/// Memory that a computation may take, in bytes. What would need more is refused before it begins; no other result depends on it. A
+/// computation asks for that of the thread on which it begins; functions in between need no parameter for it.
+///
+/// ```
+/// use unripple_core::Memory;
+///
+/// assert_eq!(Memory::here(), Memory::default());
+/// Memory::of(1e9).during(|| assert!(!Memory::here().holds(2e9)));
+/// assert!(Memory::here().holds(2e9));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Memory(f64);
+
+impl Default for Memory {
+    /// 4 GiB.
+    fn default() -> Self {
+        Self(USUAL)
+    }
+}
+
+impl Memory {
+    /// So many bytes.
+    pub fn of(bytes: f64) -> Self {
+        Self(bytes)
+    }
+
+    /// The memory that is set for the current thread (see [`Memory::during`]); 4 GiB if none is set.
+    pub fn here() -> Self {
+        HERE.with_borrow(|memory| memory.unwrap_or_default())
+    }
+
+    /// Runs `work` on the current thread with this memory set for that thread, and restores the previous one afterwards.
+    pub fn during<T>(self, work: impl FnOnce() -> T) -> T {
+        scope::during(&HERE, Some(self), work)
+    }
+
+    /// Number of bytes.
+    pub fn bytes(self) -> f64 {
+        self.0
+    }
+
+    /// Whether so many bytes fit.
+    pub fn holds(self, bytes: f64) -> bool {
+        bytes <= self.0
+    }
+}
