@@ -15,6 +15,7 @@
 mod active;
 mod admittance;
 mod basis;
+mod complement;
 mod conservative;
 mod coordinates;
 mod kept;
@@ -25,6 +26,7 @@ mod remainder;
 mod rest;
 mod span;
 mod state;
+mod system;
 
 pub use oscillations::Oscillations;
 

@@ -7,11 +7,11 @@ use super::conservative::Conservative;
 use super::coordinates::Coordinates;
 use super::mixed::Mixed;
 use super::quotient;
-use super::state::{Drives, Root, proportional, roots};
+use super::state::{Drives, Root, State, proportional};
 use crate::PhysicsError;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use unripple_core::{Observed, Pole, Shapes};
+use unripple_core::{Memory, Observed, Pole, Shapes};
 use unripple_linalg::{Mat, c64, product};
 
 /// A part of an oscillation below this share of its largest part is rounding error and is left out. Larger,
@@ -26,13 +26,6 @@ const BYTES_PER_PAIR: f64 = 320.0;
 /// Number of bytes needed for each pair of a mode that does not couple to the loads and any other mode: two
 /// copies of its readout weight.
 const BYTES_PER_READOUT: f64 = 16.0;
-
-/// Largest memory for coupled modes, in bytes, equal to the limit for the modes of the sheet. Doubled, 1.4
-/// times as many modes are allowed.
-const MEMORY: f64 = 4.0 * GIB;
-
-/// Bytes of a GiB, 2³⁰ by definition.
-const GIB: f64 = (1u64 << 30) as f64;
 
 /// The decaying oscillations of a loaded sheet, with real input and readout weights, in the form of modal
 /// responses.
@@ -80,7 +73,7 @@ impl Loaded {
     /// band are kept, since they do not oscillate.
     ///
     /// # Errors
-    /// [`PhysicsError::TooLarge`] if more than 4 GiB of memory would be needed; [`PhysicsError::NotConverged`] if an eigenvalue
+    /// [`PhysicsError::TooLarge`] if more memory would be needed than [is allowed](Memory); [`PhysicsError::NotConverged`] if an eigenvalue
     /// problem fails.
     pub fn oscillations(&self, dynamic_hz: f64, band: [f64; 2]) -> Result<Oscillations, PhysicsError> {
         let system = self.coordinates();
@@ -106,7 +99,7 @@ impl Loaded {
         } else {
             let found = match quotient::roots(&active, &modes, &system.loads, &drives) {
                 Some(found) => found,
-                None => roots(&modes, &system.loads, &drives, dynamic_hz)?,
+                None => State::of(&modes, &system.loads, &drives).roots(dynamic_hz)?,
             };
             for root in found {
                 let real = root.s.im == 0.0;
@@ -142,17 +135,13 @@ impl Coordinates {
 /// top of the band.
 fn guard(coupled: usize, readouts: usize, max_hz: f64) -> Result<(), PhysicsError> {
     let needed = BYTES_PER_PAIR * (coupled as f64).powi(2) + BYTES_PER_READOUT * readouts as f64;
-    if needed <= MEMORY {
+    let memory = Memory::here();
+    if memory.holds(needed) {
         return Ok(());
     }
-    Err(PhysicsError::TooLarge {
-        max_hz,
-        unknowns: 2 * coupled,
-        needed_gib: needed / GIB,
-        limit_gib: MEMORY / GIB,
-        // The number of modes grows at least in proportion to the frequency, so that this is not too much.
-        nearest_hz: max_hz * (MEMORY / needed).sqrt(),
-    })
+    // The number of modes grows at least in proportion to the frequency, so that this is not too much.
+    let nearest_hz = max_hz * (memory.bytes() / needed).sqrt();
+    Err(PhysicsError::too_large(max_hz, 2 * coupled, needed, nearest_hz))
 }
 
 impl Parts {
