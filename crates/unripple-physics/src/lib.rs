@@ -33,6 +33,7 @@
 //! ```
 
 mod actuators;
+mod cost;
 mod coupled;
 pub mod design;
 mod loads;
@@ -41,6 +42,7 @@ pub mod stepper;
 mod surface_modes;
 
 pub use actuators::{Entry, Sensor, Transducer, sensed, sensors, transducers};
+pub use cost::response_cost;
 pub use coupled::{Loaded, Oscillations};
 pub use design::{Design, design};
 pub use loads::{Circuit, Footprint, Housing, Load};

@@ -178,13 +178,37 @@ impl Asked {
 
     /// Whether there are no loads on the sheet.
     pub(crate) fn bare(&self) -> bool {
-        !self.transducers.iter().filter_map(|t| t.load.as_ref()).chain(&self.fingers).any(Load::acts)
+        self.loads() == 0
+    }
+
+    /// Number of loads on the sheet.
+    pub(crate) fn loads(&self) -> usize {
+        self.transducers
+            .iter()
+            .filter_map(|t| t.load.as_ref())
+            .chain(&self.fingers)
+            .filter(|l| l.acts())
+            .count()
+    }
+
+    /// Highest frequency of the modes of the sheet without loads that are needed, in Hz.
+    pub(crate) fn modes_hz(&self) -> f64 {
+        if self.bare() { self.max_hz } else { self.reach * self.max_hz }
+    }
+
+    /// Relative accuracy of the modes' frequencies.
+    pub(crate) fn accuracy(&self) -> Accuracy {
+        self.accuracy
+    }
+
+    /// Highest frequency of the modes that are coupled one by one, in Hz.
+    pub(crate) fn coupled_hz(&self) -> f64 {
+        DYNAMIC * self.max_hz
     }
 
     /// The modes of the sheet without loads that are needed.
     pub(crate) fn modes(&self, surface: &Surface) -> Result<Modes, PhysicsError> {
-        let top = if self.bare() { self.max_hz } else { self.reach * self.max_hz };
-        Modes::solve(surface, top, self.accuracy)
+        Modes::solve(surface, self.modes_hz(), self.accuracy)
     }
 
     /// The oscillations of the sheet coupled to all loads, from the bottom of the band to `max_hz`.
@@ -203,7 +227,7 @@ impl Asked {
                 let on = (&surface.outline, &surface.sheet, &poles, self.reach, self.accuracy, band);
                 format!("modes with loads: {on:?} {:?} {:?}", self.transducers, self.fingers)
             },
-            || loaded.oscillations(DYNAMIC * self.max_hz, band),
+            || loaded.oscillations(self.coupled_hz(), band),
             Oscillations::encode,
             |from| loaded.decode(from),
         )

@@ -1,10 +1,10 @@
 //! The modes of a surface: of the sheet alone, and of the sheet with its actuators on it, from one solution.
 
 use crate::responses::Asked;
-use crate::{Accuracy, Modes, PhysicsError, ResponseOptions};
+use crate::{Accuracy, Modes, PhysicsError, ResponseOptions, cost};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use unripple_core::{Pole, Surface};
+use unripple_core::{Cost, Pole, Surface};
 
 /// The modes of a surface up to a frequency, lowest first, without their shapes.
 ///
@@ -62,6 +62,15 @@ impl SurfaceModes {
         let (below, asked) = asked(surface, top_hz, accuracy.into())?;
         let modes = Arc::new(asked.modes(&below)?);
         Self::coupled(&below, &asked, modes)
+    }
+
+    /// The estimated cost of [`SurfaceModes::solve`].
+    ///
+    /// # Errors
+    /// Those of [`SurfaceModes::solve`] that are known before solving, such as [`PhysicsError::TooLarge`].
+    pub fn cost(surface: &Surface, top_hz: f64, accuracy: impl Into<Accuracy>) -> Result<Cost, PhysicsError> {
+        let (below, asked) = asked(surface, top_hz, accuracy.into())?;
+        cost::of(&below, &asked)
     }
 
     /// The modes of the sheet from which [`SurfaceModes::solve`] computes.

@@ -10,6 +10,11 @@ use unripple_linalg::{Mat, MatRef, product};
 /// value, twice as many coordinates are kept.
 const DEPTH: usize = 4;
 
+/// Number of combinations of high modes that so many loads excite, at most.
+pub(crate) fn coordinates_of_loads(loads: usize) -> usize {
+    DEPTH * loads
+}
+
 /// Least share of a combination that must be linearly independent of the others for it to be kept: with
 /// less, what is independent is only rounding error. Larger, combinations that matter would be lost.
 const OLD: f64 = 1e-9;

@@ -28,6 +28,7 @@ mod span;
 mod state;
 mod system;
 
+pub(crate) use active::coordinates_of_loads;
 pub use oscillations::Oscillations;
 
 use crate::{Entry, Footprint, Load, Medium, PhysicsError, Transducer};

@@ -44,6 +44,7 @@ pub use strip::{Scattering, Strip, finger_impedance};
 pub use touch::{Touch, table1};
 pub use tradeoffs::{ByBand, ByNoise, ByRate, ByWindow};
 pub use waves::Wave;
+pub use weyl::expected_modes;
 pub use window::{Recommended, Windows, milliseconds};
 pub use with_actuators::WithActuators;
 

@@ -1,7 +1,7 @@
 //! Number of modes of a sheet by Weyl's law, with a boundary term that depends on the edge conditions.
 
 use crate::Medium;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use unripple_core::{Edge, Surface};
 use unripple_linalg::c64;
 
@@ -34,6 +34,11 @@ struct Reflecting {
     tension: f64,
     bending: f64,
     poisson: f64,
+}
+
+/// Number of modes below a frequency (Hz) that the law leads to expect, at least one.
+pub fn expected_modes(surface: &Surface, hz: f64) -> f64 {
+    Weyl::of(surface).below(Medium::of(&surface.sheet).wavenumber(TAU * hz)).max(1.0)
 }
 
 impl Weyl {

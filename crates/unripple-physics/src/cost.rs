@@ -1,0 +1,50 @@
+//! What the responses of a surface cost, before anything is solved.
+
+use crate::coupled::coordinates_of_loads;
+use crate::design::expected_modes;
+use crate::responses::Asked;
+use crate::{Modes, PhysicsError, ResponseOptions};
+use unripple_core::{Cost, Surface};
+
+/// Operations for the modes with loads, as a multiple of the cube of their number, in products of matrices that take as long: an
+/// eigenvalue problem and products with its vectors.
+const COUPLED: f64 = 40.0;
+
+/// Operations for each damped mode with loads, relative to those of products: of small complex systems, some steps for each.
+const DAMPED: f64 = 12.0;
+
+/// The estimated cost of [`responses()`](crate::responses()): of the modes of the sheet, unless a cache holds them, and of those with loads.
+///
+/// # Errors
+/// Those of [`responses()`](crate::responses()) that are known before solving, such as [`PhysicsError::TooLarge`].
+///
+/// ```
+/// use unripple_physics::{ResponseOptions, design::papers_surface, response_cost};
+///
+/// let film = papers_surface();
+/// let higher = ResponseOptions { max_hz: Some(9000.0), ..ResponseOptions::default() };
+/// let [low, high] = [ResponseOptions::default(), higher].map(|o| response_cost(&film, &o).unwrap());
+/// assert!(low.seconds < high.seconds && high.seconds < 60.0);
+/// ```
+pub fn response_cost(surface: &Surface, options: &ResponseOptions) -> Result<Cost, PhysicsError> {
+    of(surface, &Asked::of(surface, options)?)
+}
+
+/// The estimated cost of a request.
+pub(crate) fn of(surface: &Surface, asked: &Asked) -> Result<Cost, PhysicsError> {
+    let (top, accuracy) = (asked.modes_hz(), asked.accuracy());
+    if Modes::are_cached(surface, top, accuracy)? {
+        return Ok(Cost::default());
+    }
+    let sheet = Modes::cost(surface, top, accuracy)?;
+    let loads = asked.loads() as f64;
+    if loads == 0.0 {
+        return Ok(sheet);
+    }
+    let rest = coordinates_of_loads(asked.loads()) as f64;
+    let count = expected_modes(surface, asked.coupled_hz()) + rest;
+    let step = 4.0 * loads * loads * count + rest.powi(3) + 4.0 * rest * rest * loads;
+    let coupled = Cost::of_operations(COUPLED * count.powi(3) + DAMPED * count * step);
+    // Six square matrices, two of them complex.
+    Ok(sheet + coupled + Cost { seconds: 0.0, bytes: 64.0 * count * count })
+}
