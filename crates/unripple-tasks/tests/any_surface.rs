@@ -1,7 +1,7 @@
 //! Whatever `check` passes, no other task refuses for the file's sake: random surfaces through `check`, `design`, `modes` and a focus.
 //!
 //! UNRIPPLE_SURFACES says how many, UNRIPPLE_SEED which, UNRIPPLE_FROM the first of them, for a run that goes on where another was stopped;
-//! UNRIPPLE_FILES is a folder for their files, to look at one of them again. An error counts as a fault unless it is memory or an accuracy
+//! UNRIPPLE_FILES is a folder for their files, to look at one of them again. The three tasks share what they solve for by a cache. An error counts as a fault unless it is memory or an accuracy
 //! that the message names, or a band without any mode, which `check` cannot know without solving for them. A focus ends with the WAV file
 //! of its drive.
 
@@ -9,12 +9,13 @@
 mod file;
 
 use file::{chance, file};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
-use std::sync::Mutex;
+use std::panic::AssertUnwindSafe;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
 use unripple::act::{Act, Level, chosen_window, model};
-use unripple::core::{Random, Surface};
+use unripple::core::{Cache, Cached, Random, Surface};
 use unripple::focus::{Options, Target};
 use unripple_store::encode_wav;
 use unripple_tasks::{Silent, SurfaceAsk, check, design, modes};
@@ -38,6 +39,20 @@ enum Outcome {
     Empty,
     /// Something passed `check` and was refused later, or is no number.
     Fault(String),
+}
+
+/// What was computed of one surface.
+#[derive(Default)]
+struct Kept(Mutex<HashMap<String, Vec<u8>>>);
+
+impl Cache for Kept {
+    fn read(&self, key: &str) -> Option<Vec<u8>> {
+        self.0.lock().unwrap().get(key).cloned()
+    }
+
+    fn write(&self, key: &str, bytes: &[u8]) {
+        self.0.lock().unwrap().insert(key.into(), bytes.into());
+    }
 }
 
 /// Errors of memory and of accuracy name what was wanted and what there is.
@@ -107,7 +122,8 @@ fn outcome(seed: u64, surface: u64) -> (String, Outcome) {
         let path = std::path::Path::new(&folder).join(format!("{surface}.toml"));
         std::fs::write(path, &text).expect("a folder for the files of surfaces");
     }
-    let outcome = std::panic::catch_unwind(|| judged(&text));
+    let cached = Cached::by(Some(Arc::new(Kept::default())));
+    let outcome = std::panic::catch_unwind(AssertUnwindSafe(|| cached.during(|| judged(&text))));
     (text, outcome.unwrap_or_else(|_| Outcome::Fault("a panic".into())))
 }
 
