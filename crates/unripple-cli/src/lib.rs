@@ -80,6 +80,7 @@ pub fn command_line(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 fn answer(given: &[OsString]) -> Result<(), CliError> {
     unripple_tasks::record::built_from(COMMIT, SOURCES);
     let (arguments, added) = config::arguments(given)?;
+    unripple_tasks::machine::asked()?;
     lines::settle(match (arguments.verbose, arguments.quiet) {
         (true, _) => Talk::Verbose,
         (_, true) => Talk::Quiet,

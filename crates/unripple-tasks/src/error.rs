@@ -1,6 +1,8 @@
 //! Errors that tasks return.
 
+use crate::machine;
 use unripple::act::{ActError, LevelKind};
+use unripple::physics::PhysicsError;
 use unripple_calibrate::CalibrateError;
 use unripple_devices::DevicesError;
 use unripple_live::LiveError;
@@ -67,6 +69,7 @@ impl From<ActError> for TaskError {
                 };
                 Self::ask(field, expected.to_string(), found)
             }
+            ActError::Physics(error @ PhysicsError::TooLarge { .. }) => Self::Input(machine::told(&error)),
             error if error.is_failed_work() => Self::work(error),
             error => Self::input(error),
         }

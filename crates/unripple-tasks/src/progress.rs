@@ -68,10 +68,11 @@ pub struct Silent;
 impl Progress for Silent {}
 
 /// Runs `work` so that its long computations, such as meshing or solving for eigenvalues, report their
-/// progress to [the observer](Progress::observer), and find earlier results in [the cache](Progress::cache), if there is one.
+/// progress to [the observer](Progress::observer), find earlier results in [the cache](Progress::cache), if there is one, and take no more
+/// [memory](crate::machine::memory) than the machine has.
 pub fn observed<T>(progress: &mut dyn Progress, work: impl FnOnce(&mut dyn Progress) -> T) -> T {
     let (observed, cached) = (Observed::by(progress.observer()), Cached::by(progress.cache()));
-    observed.during(|| cached.during(|| work(progress)))
+    crate::machine::memory().during(|| observed.during(|| cached.during(|| work(progress))))
 }
 
 /// Text that names a part of a stage, as `stage: part`, or the part alone if `stage` is empty.

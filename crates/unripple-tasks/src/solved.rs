@@ -83,6 +83,11 @@ impl Solved {
         act::chosen_among(&windows, responses)
     }
 
+    /// Whether responses of the surface, from modes up to any frequency, are in the cache.
+    pub fn knows(&self, surface: &Surface) -> bool {
+        self.kept().models.iter().any(|model| model.surface == *surface)
+    }
+
     fn find(&self, surface: &Surface, top: f64, contacts: &[Contact]) -> Option<Responses> {
         let mut kept = self.kept();
         let is_wanted =

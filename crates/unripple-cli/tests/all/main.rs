@@ -27,6 +27,7 @@ mod keys;
 mod level;
 mod library;
 mod main_job;
+mod memory;
 mod no_figures;
 mod ownership;
 mod progress;

@@ -5,5 +5,5 @@ mod report;
 mod run;
 
 pub use ask::Ask;
-pub use report::Report;
+pub use report::{Costs, Report};
 pub use run::run;

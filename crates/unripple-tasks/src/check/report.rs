@@ -1,5 +1,6 @@
 //! Report of the task `check`.
 
+use crate::cost::Estimate;
 use serde::Serialize;
 use std::fmt::Write;
 use unripple::act::Note;
@@ -20,6 +21,10 @@ pub struct Report {
     /// Remarks on a file without faults, if any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<Note>,
+    /// What the modes of the band cost on this machine, and a drive with its evaluation; `None` where that is not known. In the text alone,
+    /// since the JSON of a surface is the same everywhere.
+    #[serde(skip)]
+    pub costs: Option<Costs>,
     /// The faults together with the lines of the file that they are in, for the text report.
     #[serde(skip)]
     pub file: Option<Box<FileFaults>>,
@@ -28,11 +33,23 @@ pub struct Report {
     pub named: Option<(String, usize)>,
 }
 
+/// Estimated costs of the shortest tasks on a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Costs {
+    /// Of the modes in the band, with the actuators on the sheet.
+    pub modes: Estimate,
+    /// Of a drive that focuses, and of evaluating it.
+    pub focus: Estimate,
+}
+
 impl crate::Report for Report {
     fn text(&self) -> String {
         match (&self.named, &self.file) {
             (Some((name, count)), _) => {
                 let mut text = format!("{}: no faults (\"{name}\", {count} actuators)", self.surface);
+                if let Some(Costs { modes, focus }) = &self.costs {
+                    let _ = write!(text, "\nmodes take {}; a focus {}", modes.text(), focus.text());
+                }
                 for note in &self.notes {
                     let _ = write!(text, "\nnote, {}: {}", note.topic, note.text);
                 }

@@ -7,7 +7,7 @@ use super::ground::Ground;
 use super::row::{self, Row};
 use crate::target::targets;
 use crate::window::{carries, of_window};
-use crate::{Progress, Solved, TaskError, go_on, judge};
+use crate::{Progress, Solved, TaskError, cost, go_on, judge};
 use serde::Serialize;
 use unripple::act::{Readouts, chosen_window};
 use unripple::core::{Responses, Surface};
@@ -58,6 +58,7 @@ pub(super) fn on(
     progress: &mut dyn Progress,
 ) -> Result<Compared, TaskError> {
     let solved = Solved::default();
+    announce(ask, surface, progress)?;
     progress.stage(&format!("{of}responses"));
     let known = solved.model(surface, None, &[])?;
     let targets = targets(&ask.points, &ask.shapes, known.conditions().lambda_min)?;
@@ -100,6 +101,22 @@ pub(super) fn on(
         felt,
         window_text: chosen.map(|chosen| chosen.text()),
     })
+}
+
+/// Number of drives that tradeoff curves are made of.
+const ON_CURVES: usize = 30;
+
+/// Tells what the comparison will cost.
+fn announce(ask: &Ask, surface: &Surface, progress: &mut dyn Progress) -> Result<(), TaskError> {
+    let curves = if ask.no_tradeoffs || !ask.others.is_empty() { 0 } else { ON_CURVES };
+    let drives = ask.chosen().count() + curves;
+    let cost = cost::of_drives(surface, ask.window_s, ask.judge_hz, &[], drives)?;
+    let less = match curves {
+        0 => "a lower top of the band, a coarser `accuracy` or a lower `judge_hz`",
+        _ => "`no_tradeoffs`, a lower top of the band, a coarser `accuracy` or a lower `judge_hz`",
+    };
+    cost::announce(cost, less, progress);
+    Ok(())
 }
 
 /// Options of all methods: the window (s) and the surface's limits.

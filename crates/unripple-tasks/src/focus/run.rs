@@ -6,7 +6,7 @@ use crate::figures::Columns;
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
-use crate::{Progress, Solved, Source, TaskError, fingers, folder, go_on, judge, source};
+use crate::{Progress, Solved, Source, TaskError, cost, fingers, folder, go_on, judge, source};
 use unripple::act::{self, Act, Aware, Note};
 use unripple::core::{Decay, Responses, Surface};
 use unripple::focus::{LossCorrection, Method, Options};
@@ -87,6 +87,7 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     possible(ask, &source.surface, plant.as_ref().unwrap_or(&source.surface), &targets)?;
     let level = ask.level.level_on(unscaled.as_deref())?;
     let places: Vec<_> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
+    announce(ask, &source, plant.as_ref(), progress)?;
     progress.stage("responses");
     let (surface, responses, stored) = source.respond(&places, ask.between)?;
     let (window, chosen) = window(ask, (&surface, &responses), &solved, progress)?;
@@ -132,6 +133,28 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     drop(focuser);
     Ok(Made { report, drive, judged, focused, surface, responses, scaled: unscaled.is_none() })
 }
+
+/// Tells what the drive will cost, unless its responses are at hand.
+fn announce(
+    ask: &Ask,
+    source: &Source,
+    plant: Option<&Surface>,
+    progress: &mut dyn Progress,
+) -> Result<(), TaskError> {
+    if source.stored.is_some() || source.computed.is_some() || source.solved.knows(&source.surface) {
+        return Ok(());
+    }
+    let judged = plant.unwrap_or(&source.surface);
+    let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", judged)?;
+    let other =
+        plant.map(|plant| cost::of_drives(plant, ask.window_s, ask.judge_hz, &contacts, 1)).transpose()?;
+    let own = cost::of_drives(&source.surface, ask.window_s, ask.judge_hz, &contacts, 1)?;
+    cost::announce(other.map_or(own, |other| own + other), LESS, progress);
+    Ok(())
+}
+
+/// What would cost less than a drive that takes long.
+const LESS: &str = "a lower top of the band, a coarser `accuracy` or a lower `judge_hz`";
 
 /// The shortest wavelength of a surface's band, in m.
 fn shortest(surface: &Surface) -> f64 {

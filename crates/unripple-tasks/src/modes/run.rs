@@ -3,9 +3,9 @@
 use super::{Ask, Loaded, Report};
 use crate::curves::flattened;
 use crate::numbers::above_zero;
-use crate::{Progress, TaskError, go_on};
+use crate::{Progress, TaskError, cost, go_on, machine};
 use unripple::act::less_accurate;
-use unripple::physics::{Accuracy, SurfaceModes};
+use unripple::physics::{Accuracy, PhysicsError, SurfaceModes};
 
 /// Default relative accuracy, if it can be reached: a phase error of 1e-3 rad at 3 kHz after 50 ms. With a
 /// smaller value, modes that need a mesh take minutes.
@@ -21,8 +21,10 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let top = above_zero(ask.top_hz.unwrap_or(surface.emission.band[1]), "top_hz", "Hz")?;
     let accuracy = Accuracy::of(ask.accuracy.or(surface.accuracy), ACCURACY);
     go_on(progress)?;
+    let cost = SurfaceModes::cost(&surface, top, accuracy).map_err(refused)?;
+    cost::announce(cost, "a lower top frequency or a coarser `accuracy`", progress);
     progress.stage("modes");
-    let modes = SurfaceModes::solve(&surface, top, accuracy).map_err(TaskError::input)?;
+    let modes = SurfaceModes::solve(&surface, top, accuracy).map_err(refused)?;
     let sheet = Loaded::of(&modes.sheet);
     Ok(Report {
         surface: surface.name.clone(),
@@ -35,4 +37,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         notes: flattened(&surface).into_iter().chain(less_accurate(modes.error, accuracy.aim)).collect(),
         bending_shares: modes.bending_shares,
     })
+}
+
+fn refused(error: PhysicsError) -> TaskError {
+    TaskError::Input(machine::told(&error))
 }
