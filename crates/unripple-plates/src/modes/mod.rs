@@ -129,8 +129,7 @@ impl Modes {
             return rectangle::cost(&rectangle);
         }
         match disc::Problem::of(surface, bounds)? {
-            // Round sheets take milliseconds.
-            Some(_) => Ok(Cost::default()),
+            Some(disc) => disc::cost(&disc),
             None => general::estimate(surface, &bounds),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::model::inexact;
 use super::{ActError, Note, Report};
-use crate::core::{Responses, Surface};
+use crate::core::{Memory, Responses, Surface};
 use crate::physics::{PhysicsError, sampled_hz};
 
 /// Highest frequency of the modes that drives are evaluated on by default, as a multiple of the top of the
@@ -181,14 +181,18 @@ fn told(surface: &Surface, hz: f64) -> String {
     format!("the modes{of} up to {hz} Hz")
 }
 
-/// Whether modes are out of reach by their number or accuracy, so that fewer of them may be within it.
+/// Whether modes are out of reach by their number or accuracy, so that fewer of them may be within it: on every machine alike, so that what
+/// only this one has no memory for is refused.
 fn is_out_of_reach(error: &ActError) -> bool {
-    matches!(
-        error,
-        ActError::Physics(
-            PhysicsError::TooLarge { .. } | PhysicsError::NotConverged { .. } | PhysicsError::Solver { .. }
-        )
-    )
+    match error {
+        ActError::Physics(PhysicsError::TooLarge { needed_gib, .. }) => {
+            !Memory::default().holds(needed_gib * (1u64 << 30) as f64)
+        }
+        ActError::Physics(error) => {
+            matches!(error, PhysicsError::NotConverged { .. } | PhysicsError::Solver { .. })
+        }
+        _ => false,
+    }
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use order::OrderModes;
 use rayon::prelude::*;
 use shapes::{Place, Round};
 use std::f64::consts::TAU;
-use unripple_core::{Memory, Observed};
+use unripple_core::{Cost, Memory, Observed};
 
 pub(super) use problem::Problem;
 
@@ -74,6 +74,15 @@ fn places(orders: &[OrderModes]) -> Vec<Place> {
     let square = |(n, m, _): &Place| orders[*n].squares[*m];
     places.sort_by(|a, b| square(a).total_cmp(&square(b)).then(a.cmp(b)));
     places
+}
+
+/// The cost of a solution, which takes milliseconds.
+///
+/// # Errors
+/// [`PhysicsError::TooLarge`] if it does not fit in memory.
+pub(crate) fn cost(problem: &Problem) -> Result<Cost, PhysicsError> {
+    guard(problem)?;
+    Ok(Cost { seconds: 0.0, bytes: BYTES * (problem.bounds.k_top * problem.radius).powi(3) })
 }
 
 /// Refuses a problem that would not fit in memory, before any is allocated.

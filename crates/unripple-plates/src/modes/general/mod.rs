@@ -18,6 +18,7 @@ use crate::spectrum::{self, Pairs};
 use meshed::{mean_edge, meshed};
 use sizing::Plan;
 use solution::Solution;
+use std::f64::consts::TAU;
 use unripple_core::{Cached, Cost, Edge, Encoded, Memory, Observed, Surface};
 use unripple_linalg::Mat;
 
@@ -39,11 +40,7 @@ const STALLED: f64 = 0.8;
 /// convergence was measured too high by chance, the next round looks worse.
 const PATIENCE: usize = 2;
 
-/// Memory within which meshes are made as fine as the accuracy aimed at asks, in bytes: they take minutes. Where an accuracy that is accepted
-/// needs more, all the memory allowed may be taken. With twice this value, the same surfaces take three times as long.
-const AIMED: f64 = 4.0 * (1u64 << 30) as f64;
-
-/// Factor between one accuracy and the next that is tried if meshes for the first would not fit in [`AIMED`].
+/// Factor between one accuracy and the next that is tried if meshes for the first would not fit in the usual memory.
 /// With twice this value, the accuracy may be six times worse than memory allows.
 const RELAXED: f64 = 3.0;
 
@@ -149,14 +146,19 @@ fn refined(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<(Solut
 /// # Errors
 /// [`PhysicsError::TooLarge`] where there is none, so that nothing is solved in vain.
 fn affordable(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<(Plan, Memory), PhysicsError> {
-    let all = Memory::here();
-    let aimed = Memory::of(AIMED.min(all.bytes()));
+    // What is chosen by itself is the same on every machine.
+    let (usual, all) = (Memory::default(), Memory::here());
     let with = |accuracy: f64| Plan::new(surface, fabric, &Bounds { accuracy, ..*bounds });
     let mut accuracy = bounds.accuracy;
     while accuracy <= bounds.most {
         let plan = with(accuracy)?;
-        if aimed.holds(cost(surface, &plan)?.1) {
-            return Ok((plan, aimed));
+        let needed = cost(surface, &plan)?.1;
+        if usual.holds(needed) {
+            return if all.holds(needed) {
+                Ok((plan, usual))
+            } else {
+                Err(too_large(surface, bounds, &plan)?)
+            };
         }
         accuracy *= RELAXED;
     }
@@ -242,15 +244,12 @@ fn found(solution: Solution, bounds: &Bounds, error: f64) -> Found {
 
 /// The cost of a solution, on the three meshes that most surfaces take.
 pub(super) fn estimate(surface: &Surface, bounds: &Bounds) -> Result<Cost, PhysicsError> {
-    let (membrane, as_membrane);
-    let (surface, bounds) = match polygon::membrane(surface, bounds)? {
-        Some(found) => {
-            (membrane, as_membrane) = found;
-            (&membrane, &as_membrane)
-        }
-        None => (surface, bounds),
-    };
-    let (fine, _) = affordable(surface, &Fabric::of(surface)?, bounds)?;
+    let as_membrane = polygon::membrane(surface, bounds)?;
+    let as_plate = as_membrane.is_some();
+    let (surface, bounds) =
+        as_membrane.as_ref().map_or((surface, bounds), |(surface, bounds)| (surface, bounds));
+    let refused = |error| if as_plate { polygon::refusal(error) } else { error };
+    let (fine, _) = affordable(surface, &Fabric::of(surface)?, bounds).map_err(refused)?;
     let coarse = fine.coarser(COARSER);
     let each = |plan: &Plan| {
         let (unknowns, bytes) = cost(surface, plan)?;
@@ -276,5 +275,7 @@ fn too_large(surface: &Surface, bounds: &Bounds, plan: &Plan) -> Result<PhysicsE
         let needed = cost(surface, &plan.lower(share))?.1;
         if Memory::here().holds(needed) { fits = share } else { fails = share }
     }
-    Ok(PhysicsError::too_large(bounds.max_hz, unknowns, needed, bounds.max_hz * fits))
+    // Waves on a plate shorten as the root of the frequency.
+    let nearest_hz = bounds.medium.omega(bounds.k_top * fits) / TAU;
+    Ok(PhysicsError::too_large(bounds.max_hz, unknowns, needed, nearest_hz))
 }

@@ -59,8 +59,13 @@ pub(super) fn plate(membrane: Solution, as_membrane: &Bounds, bounds: &Bounds) -
 }
 
 /// The error to report for the plate, given the error of solving for the membrane.
+/// ω² of the plate is that of the membrane squared, so that what fits is less of its band.
 pub(super) fn refusal(of_membrane: PhysicsError) -> PhysicsError {
     match of_membrane {
+        PhysicsError::TooLarge { max_hz, unknowns, needed_gib, limit_gib, nearest_hz } => {
+            let nearest_hz = max_hz * (nearest_hz / max_hz).powi(2);
+            PhysicsError::TooLarge { max_hz, unknowns, needed_gib, limit_gib, nearest_hz }
+        }
         PhysicsError::NotConverged { max_hz, expected, found } => {
             PhysicsError::NotConverged { max_hz, expected: of_plate(expected), found: of_plate(found) }
         }

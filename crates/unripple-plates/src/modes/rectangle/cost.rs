@@ -33,6 +33,11 @@ pub(super) fn guard(problem: &Problem, counts: [usize; 2]) -> Result<(), Physics
     Err(PhysicsError::too_large(problem.bounds.max_hz, unknowns, needed, nearest_hz))
 }
 
+/// Whether a problem fits in the usual memory, whatever this machine has.
+pub(super) fn is_usual(problem: &Problem, counts: [usize; 2]) -> bool {
+    Memory::default().holds(size(problem, counts, problem.bounds.k_top).bytes)
+}
+
 /// What a problem takes in its symmetry classes.
 struct Size {
     /// Number of unknowns of the largest class.
