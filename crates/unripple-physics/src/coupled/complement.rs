@@ -11,7 +11,8 @@ const MOST: f64 = 0.5;
 /// error.
 const INDEPENDENT: f64 = 1e-8;
 
-/// Largest residual ‖Ay - sy‖/‖y‖ of an eigenvector, relative to the highest frequency: a thousand rounding errors of a large state.
+/// Largest residual ‖Ay - sy‖/‖y‖ of an eigenvector, relative to the highest frequency or rate: a thousand rounding errors of a large state.
+/// Where loads are so regular that several of these have one frequency it may be larger, and the whole state is decomposed.
 const RESIDUAL: f64 = 1e-10;
 
 /// The exponentials of a system beside those `found`, all of which oscillate; `None` if they are too many, or not sure to be found.
@@ -42,29 +43,41 @@ pub(super) fn roots(state: &State<'_>, found: &[Root]) -> Option<Vec<Root>> {
     let basis = basis.left;
     let moved = state.moved(basis.as_ref());
     let signed = signed(state, &basis);
-    let mut within = product(signed.transpose(), moved.as_ref());
-    Lu::new(product(signed.transpose(), basis.as_ref()).as_ref()).solve(within.as_mut());
+    let (mut within, mut dual) = (product(signed.transpose(), moved.as_ref()), signed.transpose().to_owned());
+    let gram = Lu::new(product(signed.transpose(), basis.as_ref()).as_ref());
+    gram.solve(within.as_mut());
+    gram.solve(dual.as_mut());
     let General { values, vectors } = general(within.as_ref())?;
+    // Left eigenvectors by an inverse, since those of one eigenvalue need not be orthogonal.
+    let left = complex_product(&Lu::new(vectors.as_ref()).inverse(), &dual);
     let [real, imaginary] = [|x: c64| x.re, |x: c64| x.im].map(|part| {
         let parts = Mat::from_fn(vectors.nrows(), vectors.ncols(), |i, k| part(vectors[(i, k)]));
         [product(basis.as_ref(), parts.as_ref()), product(moved.as_ref(), parts.as_ref())]
     });
-    let top = state.modes.omegas.last().copied().unwrap_or(0.0);
+    let rates = (0..state.coils.len()).map(|coil| state.rate(coil));
+    let top = state.modes.omegas.iter().copied().chain(rates).fold(0.0, f64::max);
     let root = |k: usize| {
         let of = |which: usize, row: usize| c64::new(real[which][(row, k)], imaginary[which][(row, k)]);
         let s = values[k];
         let length = |at: &dyn Fn(usize) -> c64| (0..size).map(|row| at(row).norm_sqr()).sum::<f64>().sqrt();
         let off = length(&|row| of(1, row) - of(0, row) * s);
-        let norm: c64 = (0..size).map(|row| of(0, row) * of(0, row) * state.sign(row)).sum();
         // Not so either where something is not finite.
-        let good = off <= RESIDUAL * top * length(&|row| of(0, row)) && norm.norm() > 0.0;
+        let good = off <= RESIDUAL * top * length(&|row| of(0, row));
         good.then(|| Root {
             s,
             shape: state.displacement(s, |row| of(0, row)),
-            input: state.inputs(|row| of(0, row) * state.sign(row) / norm),
+            input: state.inputs(|row| c64::new(left[0][(k, row)], left[1][(k, row)])),
         })
     };
     (0..values.len()).filter(|k| values[*k].im >= 0.0).map(root).collect()
+}
+
+/// The real and the imaginary part of a complex matrix times a real one.
+fn complex_product(left: &Mat<c64>, right: &Mat<f64>) -> [Mat<f64>; 2] {
+    [|x: c64| x.re, |x: c64| x.im].map(|part| {
+        let part = Mat::from_fn(left.nrows(), left.ncols(), |i, j| part(left[(i, j)]));
+        product(part.as_ref(), right.as_ref())
+    })
 }
 
 /// J Y of states, the columns of Y.

@@ -30,6 +30,7 @@ mod system;
 
 pub(crate) use active::coordinates_of_loads;
 pub use oscillations::Oscillations;
+pub(crate) use oscillations::guard;
 
 use crate::{Entry, Footprint, Load, Medium, PhysicsError, Transducer};
 use remainder::Remainder;

@@ -133,7 +133,7 @@ impl Coordinates {
 /// Refuses a problem that would not fit into memory, before any memory is allocated: `coupled` modes that
 /// couple to loads, and `readouts` pairs of a mode that does not couple and any mode. `max_hz` (Hz) is the
 /// top of the band.
-fn guard(coupled: usize, readouts: usize, max_hz: f64) -> Result<(), PhysicsError> {
+pub(crate) fn guard(coupled: usize, readouts: usize, max_hz: f64) -> Result<(), PhysicsError> {
     let needed = BYTES_PER_PAIR * (coupled as f64).powi(2) + BYTES_PER_READOUT * readouts as f64;
     let memory = Memory::here();
     if memory.holds(needed) {
