@@ -1,6 +1,6 @@
 //! What the responses of a surface cost, before anything is solved.
 
-use crate::coupled::coordinates_of_loads;
+use crate::coupled::{coordinates_of_loads, guard};
 use crate::design::expected_modes;
 use crate::responses::Asked;
 use crate::{Modes, PhysicsError, ResponseOptions};
@@ -33,18 +33,17 @@ pub fn response_cost(surface: &Surface, options: &ResponseOptions) -> Result<Cos
 /// The estimated cost of a request.
 pub(crate) fn of(surface: &Surface, asked: &Asked) -> Result<Cost, PhysicsError> {
     let (top, accuracy) = (asked.modes_hz(), asked.accuracy());
-    if Modes::are_cached(surface, top, accuracy)? {
-        return Ok(Cost::default());
-    }
-    let sheet = Modes::cost(surface, top, accuracy)?;
+    let known = Modes::are_cached(surface, top, accuracy)?;
+    let sheet = if known { Cost::default() } else { Modes::cost(surface, top, accuracy)? };
     let loads = asked.loads() as f64;
     if loads == 0.0 {
         return Ok(sheet);
     }
     let rest = coordinates_of_loads(asked.loads()) as f64;
     let count = expected_modes(surface, asked.coupled_hz()) + rest;
+    guard(count as usize, 0, asked.coupled_hz())?;
     let step = 4.0 * loads * loads * count + rest.powi(3) + 4.0 * rest * rest * loads;
     let coupled = Cost::of_operations(COUPLED * count.powi(3) + DAMPED * count * step);
-    // Six square matrices, two of them complex.
+    // Eight square matrices.
     Ok(sheet + coupled + Cost { seconds: 0.0, bytes: 64.0 * count * count })
 }

@@ -102,7 +102,7 @@ fn text((_, outline, sheet, rate, at, kind, _): &Kind, top: f64) -> String {
 fn estimate(task: &str, surface: &Surface) -> Result<Estimate, TaskError> {
     let cost = match task {
         "modes" => model_cost(surface, None, &[])?,
-        _ => of_drives(surface, None, None, &[], 1)?,
+        _ => of_drives(surface, surface, None, None, &[], 1)?,
     };
     Ok(Estimate::of(cost))
 }

@@ -1,7 +1,7 @@
 //! Runs a task on its own thread, so that a cancelled call returns at once, even while the task is in work that cannot be interrupted.
 
 use crate::progress::part_of;
-use crate::{Progress, TaskError};
+use crate::{Progress, TaskError, machine};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Condvar, LazyLock, Mutex, PoisonError};
@@ -127,10 +127,10 @@ impl Lane {
         let (to, from) = channel();
         let shared = Arc::new(Shared::default());
         let mut relay = Relay { to, shared: shared.clone() };
-        let cached = Cached::by(progress.cache());
+        let (cached, memory) = (Cached::by(progress.cache()), machine::memory());
         let work = move || {
             let observed = Observed::by(relay.observer());
-            let over = observed.during(|| cached.during(|| work(&mut relay)));
+            let over = memory.during(|| observed.during(|| cached.during(|| work(&mut relay))));
             // Whoever cancelled it is not informed of how it ended.
             let _ = relay.to.send(Said::Over(over));
         };

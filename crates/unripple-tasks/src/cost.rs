@@ -41,25 +41,27 @@ impl Estimate {
 /// Memory of the program itself, in bytes.
 const PROGRAM: f64 = 2e7;
 
-/// The cost of computing a drive, and of evaluating it: of `drives` drives on the same responses. A window in s where one was asked for.
+/// The cost of computing a drive on a surface, and of evaluating it on the surface `judged`, the same or another: of `drives` drives on the same
+/// responses. A window in s where one was asked for.
 ///
 /// # Errors
 /// Those of the model that are known before solving, such as one that does not fit in memory.
 pub fn of_drives(
     surface: &Surface,
+    judged: &Surface,
     window: Option<f64>,
     judge_hz: Option<f64>,
     contacts: &[Contact],
     drives: usize,
 ) -> Result<Cost, TaskError> {
     let chosen = if window.is_none() { window_cost(surface) } else { Cost::default() };
-    Ok(model_cost(surface, None, &[])? + chosen + judging_cost(surface, judge_hz, contacts, window, drives)?)
+    Ok(model_cost(surface, None, &[])? + chosen + judging_cost(judged, judge_hz, contacts, window, drives)?)
 }
 
 /// Tells of the cost of a task if it takes longer than people wait without asking; `less` says what would take less.
 pub(crate) fn announce(cost: Cost, less: &str, progress: &mut dyn Progress) {
     // The speed of the machine is asked for only where it matters.
-    if cost.seconds < 0.2 * LONG {
+    if cost.seconds < machine::SLOWEST * LONG {
         return;
     }
     let estimate = Estimate::of(cost);

@@ -19,6 +19,9 @@ const SHARE: f64 = 0.8;
 /// Size of the matrices by which the speed is measured: large enough that their product runs at full speed, for 2 ms.
 const SIZE: usize = 256;
 
+/// Least speed that is believed, relative to that of the laws: slower ones are machines at other work.
+pub(crate) const SLOWEST: f64 = 0.05;
+
 /// Number of products, of which the fastest counts, since other work delays some.
 const TIMES: usize = 5;
 
@@ -34,13 +37,15 @@ pub fn memory() -> Memory {
 /// The memory that the variable allows, in bytes; `None` where it is not set.
 ///
 /// # Errors
-/// [`TaskError::Ask`] if it is no positive number.
+/// [`TaskError::Input`] if it is no positive number.
 pub fn asked() -> Result<Option<f64>, TaskError> {
     let Some(text) = env::var_os(VARIABLE).filter(|text| !text.is_empty()) else { return Ok(None) };
     let text = text.to_string_lossy();
     match text.trim().parse::<f64>() {
         Ok(gib) if gib > 0.0 && gib.is_finite() => Ok(Some(gib * GIB)),
-        _ => Err(TaskError::ask(VARIABLE, "a number of GiB above 0, such as 8", text)),
+        _ => Err(TaskError::Input(format!(
+            "{VARIABLE}: expected a number of GiB above 0, such as 8, found {text}"
+        ))),
     }
 }
 
@@ -55,12 +60,14 @@ pub(crate) fn told(error: &PhysicsError) -> String {
     }
 }
 
-/// Memory to spare in bytes, within the limits of a container; `None` where the system does not tell.
+/// Memory to spare in bytes, within the limits of a container, whose cached files may be dropped; `None` where the system does not tell.
 fn spare() -> Option<f64> {
     let memory = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
     let system = System::new_with_specifics(memory).ok()?;
     let free = Some(system.available_memory()).filter(|bytes| *bytes > 0)?;
-    let within = system.cgroup_limits().map_or(free, |limits| limits.free_memory.min(free));
+    let within = system
+        .cgroup_limits()
+        .map_or(free, |limits| limits.total_memory.saturating_sub(limits.rss).min(free));
     Some(within as f64)
 }
 
@@ -96,6 +103,6 @@ pub fn speed() -> f64 {
         };
         let fastest = (0..TIMES).map(|_| alone()).fold(f64::INFINITY, f64::min);
         let operations = 2.0 * (SIZE as f64).powi(3);
-        (operations / fastest / Cost::RATE).clamp(0.05, 20.0)
+        (operations / fastest / Cost::RATE).clamp(SLOWEST, 20.0)
     })
 }

@@ -10,7 +10,8 @@ fn check_says_what_a_surface_costs() {
     assert!(text.contains(" GB of memory"), "{text}");
     // Of JSON nothing depends on the machine.
     let output = run(&["check", "glass-plate", "--json"]);
-    assert!(!String::from_utf8_lossy(&output.stdout).contains("cost"));
+    let json = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success() && json.contains("\"ok\"") && !json.contains("cost"), "{json}");
 }
 
 #[test]

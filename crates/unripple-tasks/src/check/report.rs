@@ -21,10 +21,10 @@ pub struct Report {
     /// Remarks on a file without faults, if any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<Note>,
-    /// What the modes of the band cost on this machine, and a drive with its evaluation; `None` where that is not known. In the text alone,
+    /// What the modes of the band cost on this machine, and a drive with its evaluation, or why that is not known. In the text alone,
     /// since the JSON of a surface is the same everywhere.
     #[serde(skip)]
-    pub costs: Option<Costs>,
+    pub costs: Option<Result<Costs, String>>,
     /// The faults together with the lines of the file that they are in, for the text report.
     #[serde(skip)]
     pub file: Option<Box<FileFaults>>,
@@ -47,9 +47,13 @@ impl crate::Report for Report {
         match (&self.named, &self.file) {
             (Some((name, count)), _) => {
                 let mut text = format!("{}: no faults (\"{name}\", {count} actuators)", self.surface);
-                if let Some(Costs { modes, focus }) = &self.costs {
-                    let _ = write!(text, "\nmodes take {}; a focus {}", modes.text(), focus.text());
-                }
+                let _ = match &self.costs {
+                    Some(Ok(Costs { modes, focus })) => {
+                        write!(text, "\nmodes take {}; a focus {}", modes.text(), focus.text())
+                    }
+                    Some(Err(why)) => write!(text, "\nwhat it costs is not known: {why}"),
+                    None => Ok(()),
+                };
                 for note in &self.notes {
                     let _ = write!(text, "\nnote, {}: {}", note.topic, note.text);
                 }

@@ -3,7 +3,7 @@
 use super::{Ask, Costs, Report};
 use crate::cost::{self, Estimate};
 use crate::curves::flattened;
-use crate::{Progress, TaskError, go_on};
+use crate::{Progress, TaskError, go_on, machine};
 use unripple::act::model_cost;
 use unripple::core::Surface;
 
@@ -17,7 +17,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     match ask.surface.load() {
         Ok(found) => {
             let notes = flattened(&found).into_iter().collect();
-            let costs = costs(&found);
+            let costs = Some(costs(&found));
             let named = Some((found.name, found.actuators.len()));
             Ok(Report {
                 surface,
@@ -44,9 +44,13 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     }
 }
 
-/// What tasks on a surface cost; `None` where its modes cannot be had.
-fn costs(surface: &Surface) -> Option<Costs> {
-    let modes = Estimate::of(model_cost(surface, None, &[]).ok()?);
-    let focus = Estimate::of(cost::of_drives(surface, None, None, &[], 1).ok()?);
-    Some(Costs { modes, focus })
+/// What tasks on a surface cost, within the memory of this machine; the reason where its modes cannot be had.
+fn costs(surface: &Surface) -> Result<Costs, String> {
+    machine::memory().during(|| {
+        let told = |error| TaskError::from(error).to_string();
+        let modes = Estimate::of(model_cost(surface, None, &[]).map_err(told)?);
+        let focus =
+            cost::of_drives(surface, surface, None, None, &[], 1).map_err(|error| error.to_string())?;
+        Ok(Costs { modes, focus: Estimate::of(focus) })
+    })
 }

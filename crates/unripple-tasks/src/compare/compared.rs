@@ -58,7 +58,7 @@ pub(super) fn on(
     progress: &mut dyn Progress,
 ) -> Result<Compared, TaskError> {
     let solved = Solved::default();
-    announce(ask, surface, progress)?;
+    announce(ask, surface, progress);
     progress.stage(&format!("{of}responses"));
     let known = solved.model(surface, None, &[])?;
     let targets = targets(&ask.points, &ask.shapes, known.conditions().lambda_min)?;
@@ -107,16 +107,17 @@ pub(super) fn on(
 const ON_CURVES: usize = 30;
 
 /// Tells what the comparison will cost.
-fn announce(ask: &Ask, surface: &Surface, progress: &mut dyn Progress) -> Result<(), TaskError> {
+fn announce(ask: &Ask, surface: &Surface, progress: &mut dyn Progress) {
     let curves = if ask.no_tradeoffs || !ask.others.is_empty() { 0 } else { ON_CURVES };
     let drives = ask.chosen().count() + curves;
-    let cost = cost::of_drives(surface, ask.window_s, ask.judge_hz, &[], drives)?;
     let less = match curves {
         0 => "a lower top of the band, a coarser `accuracy` or a lower `judge_hz`",
         _ => "`no_tradeoffs`, a lower top of the band, a coarser `accuracy` or a lower `judge_hz`",
     };
-    cost::announce(cost, less, progress);
-    Ok(())
+    // What cannot be estimated is refused where it is computed.
+    if let Ok(cost) = cost::of_drives(surface, surface, ask.window_s, ask.judge_hz, &[], drives) {
+        cost::announce(cost, less, progress);
+    }
 }
 
 /// Options of all methods: the window (s) and the surface's limits.

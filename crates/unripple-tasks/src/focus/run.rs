@@ -87,7 +87,7 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     possible(ask, &source.surface, plant.as_ref().unwrap_or(&source.surface), &targets)?;
     let level = ask.level.level_on(unscaled.as_deref())?;
     let places: Vec<_> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
-    announce(ask, &source, plant.as_ref(), progress)?;
+    announce(ask, &source, plant.as_ref(), progress);
     progress.stage("responses");
     let (surface, responses, stored) = source.respond(&places, ask.between)?;
     let (window, chosen) = window(ask, (&surface, &responses), &solved, progress)?;
@@ -134,23 +134,19 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     Ok(Made { report, drive, judged, focused, surface, responses, scaled: unscaled.is_none() })
 }
 
-/// Tells what the drive will cost, unless its responses are at hand.
-fn announce(
-    ask: &Ask,
-    source: &Source,
-    plant: Option<&Surface>,
-    progress: &mut dyn Progress,
-) -> Result<(), TaskError> {
+/// Tells what the drive will cost, unless its responses are at hand. What cannot be estimated is refused where it is computed.
+fn announce(ask: &Ask, source: &Source, plant: Option<&Surface>, progress: &mut dyn Progress) {
     if source.stored.is_some() || source.computed.is_some() || source.solved.knows(&source.surface) {
-        return Ok(());
+        return;
     }
     let judged = plant.unwrap_or(&source.surface);
-    let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", judged)?;
-    let other =
-        plant.map(|plant| cost::of_drives(plant, ask.window_s, ask.judge_hz, &contacts, 1)).transpose()?;
-    let own = cost::of_drives(&source.surface, ask.window_s, ask.judge_hz, &contacts, 1)?;
-    cost::announce(other.map_or(own, |other| own + other), LESS, progress);
-    Ok(())
+    let estimate = || {
+        let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", judged)?;
+        cost::of_drives(&source.surface, judged, ask.window_s, ask.judge_hz, &contacts, 1)
+    };
+    if let Ok(cost) = estimate() {
+        cost::announce(cost, LESS, progress);
+    }
 }
 
 /// What would cost less than a drive that takes long.

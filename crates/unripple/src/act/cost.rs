@@ -16,6 +16,9 @@ const READING: f64 = 1e-7;
 /// Seconds of what is done with each sample of the field at a point: its peak, and how it is felt.
 const SAMPLE: f64 = 8e-8;
 
+/// Longest window that is assumed where losses are small, in s.
+const LONGEST: f64 = 0.5;
+
 /// Number of products of all shapes and samples that an evaluation takes: of velocity and of displacement, and of a coarser grid before.
 const PRODUCTS: f64 = 2.0;
 
@@ -70,7 +73,7 @@ pub fn judging_cost(
     let (modes, points) = (expected_modes(surface, hz), surface.outline.area() / (cell * cell));
     let wavenumber = medium.wavenumber(TAU * high);
     let rate = decay_rate(&surface.sheet.decay, TAU * high, medium.bending_share(wavenumber));
-    let samples = 2.0 * window.unwrap_or(0.5 / rate) * surface.emission.rate;
+    let samples = 2.0 * window.unwrap_or((0.5 / rate).min(LONGEST)) * surface.emission.rate;
     let each = PRODUCTS * 2.0 * modes * points * samples / (SINGLE * Cost::RATE) + SAMPLE * points * samples;
     let bytes = STATES + 12.0 * points * modes;
     Ok(model + touched + Cost { seconds: drives as f64 * each + READING * points * modes, bytes })
