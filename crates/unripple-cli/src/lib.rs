@@ -80,7 +80,7 @@ pub fn command_line(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 fn answer(given: &[OsString]) -> Result<(), CliError> {
     unripple_tasks::record::built_from(COMMIT, SOURCES);
     let (arguments, added) = config::arguments(given)?;
-    unripple_tasks::machine::asked()?;
+    unripple_tasks::machine::asked().map_err(unripple_tasks::TaskError::Input)?;
     lines::settle(match (arguments.verbose, arguments.quiet) {
         (true, _) => Talk::Verbose,
         (_, true) => Talk::Quiet,

@@ -25,7 +25,7 @@ impl Cost {
     /// precision on one processor.
     pub const RATE: f64 = 2e10;
 
-    /// The cost of so many floating-point operations in large products of matrices.
+    /// The cost of so many floating-point operations, a pure number, in large products of matrices.
     pub fn of_operations(operations: f64) -> Self {
         Self { seconds: operations / Self::RATE, bytes: 0.0 }
     }

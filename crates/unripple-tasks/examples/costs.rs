@@ -134,6 +134,17 @@ fn used() -> [f64; 2] {
     [(ticks(11) + ticks(12)) / 100.0, 1024.0 * kib]
 }
 
+/// Processor time (s) and largest memory (bytes) of a task on the surface of a text, in a process of its own; what it said where it failed.
+fn measured(task: &str, text: &str) -> Result<[f64; 2], String> {
+    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    let output =
+        Command::new(program).args(["--one", task, text]).output().map_err(|error| error.to_string())?;
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let numbers: Vec<f64> =
+        said.trim().trim_matches(['[', ']']).split(',').filter_map(|x| x.trim().parse().ok()).collect();
+    numbers.try_into().map_err(|_| String::from_utf8_lossy(&output.stderr).trim().to_owned())
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if let [only, task, text] = arguments.as_slice()
@@ -152,47 +163,29 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
         "task   surface                 top Hz   estimate s   used s  ratio   estimate GB  used GB  ratio"
     );
+    let asked = |kind: &&Kind| arguments.get(1).is_none_or(|part| kind.0.contains(part.as_str()));
     let mut worst = [1.0_f64; 2];
-    for (kind, top) in KINDS.iter().flat_map(|kind| kind.6.map(|top| (kind, top))) {
-        if arguments.get(1).is_some_and(|part| !kind.0.contains(part.as_str())) {
-            continue;
-        }
+    for (kind, top) in KINDS.iter().filter(asked).flat_map(|kind| kind.6.map(|top| (kind, top))) {
         for task in &tasks {
             let text = text(kind, top);
             let surface = SurfaceAsk::Text { toml: text.clone(), name: None }.load()?;
-            let estimate = estimate(task, &surface)?;
-            let output = Command::new(std::env::current_exe()?).args(["--one", task, &text]).output()?;
-            let said = String::from_utf8_lossy(&output.stdout).into_owned();
-            let numbers: Vec<f64> = said
-                .trim()
-                .trim_matches(['[', ']'])
-                .split(',')
-                .filter_map(|x| x.trim().parse().ok())
-                .collect();
-            let [seconds, bytes] = numbers.as_slice() else {
-                println!(
-                    "{task:<6} {:<22} {top:>7}  {}",
-                    kind.0,
-                    String::from_utf8_lossy(&output.stderr).trim()
-                );
+            let Estimate { processor_s, bytes, .. } = estimate(task, &surface)?;
+            let (name, used) = (kind.0, measured(task, &text));
+            let Ok([seconds, peak]) = used else {
+                println!("{task:<6} {name:<22} {top:>7}  {}", used.unwrap_err());
                 continue;
             };
-            let ratios = [estimate.processor_s / seconds, estimate.bytes / bytes];
+            let ratios = [processor_s / seconds, bytes / peak];
+            let (estimated, taken) = (1e-9 * bytes, 1e-9 * peak);
             println!(
-                "{task:<6} {:<22} {top:>7} {:>12.2} {seconds:>8.2} {:>6.2} {:>13.2} {:>8.2} {:>6.2}",
-                kind.0,
-                estimate.processor_s,
-                ratios[0],
-                1e-9 * estimate.bytes,
-                1e-9 * bytes,
-                ratios[1]
+                "{task:<6} {name:<22} {top:>7} {processor_s:>12.2} {seconds:>8.2} {:>6.2} {estimated:>13.2} {taken:>8.2} {:>6.2}",
+                ratios[0], ratios[1]
             );
             // What takes less than two seconds, or a tenth of a GB, is not told.
-            let counts = [*seconds > 2.0, *bytes > 1e8];
-            for ((worst, ratio), counts) in worst.iter_mut().zip(ratios).zip(counts) {
-                if counts {
-                    *worst = worst.max(ratio).max(1.0 / ratio);
-                }
+            for (worst, ratio) in
+                worst.iter_mut().zip(ratios).zip([seconds > 2.0, peak > 1e8]).filter(|x| x.1).map(|x| x.0)
+            {
+                *worst = worst.max(ratio).max(1.0 / ratio);
             }
         }
     }

@@ -1,6 +1,5 @@
 //! What this machine has: memory to spare, and the speed of its processors.
 
-use crate::TaskError;
 use std::env;
 use std::hint::black_box;
 use std::sync::OnceLock;
@@ -25,6 +24,7 @@ pub(crate) const SLOWEST: f64 = 0.05;
 /// Number of products, of which the fastest counts, since other work delays some.
 const TIMES: usize = 5;
 
+/// Bytes of a GiB, 2³⁰ by definition.
 const GIB: f64 = (1u64 << 30) as f64;
 
 /// The memory that solutions for modes may take: as much as the variable `UNRIPPLE_MEMORY_GIB` says, 4 GiB by default, but not more than the
@@ -37,15 +37,13 @@ pub fn memory() -> Memory {
 /// The memory that the variable allows, in bytes; `None` where it is not set.
 ///
 /// # Errors
-/// [`TaskError::Input`] if it is no positive number.
-pub fn asked() -> Result<Option<f64>, TaskError> {
+/// What is wrong with it, in words, if it is no positive number.
+pub fn asked() -> Result<Option<f64>, String> {
     let Some(text) = env::var_os(VARIABLE).filter(|text| !text.is_empty()) else { return Ok(None) };
     let text = text.to_string_lossy();
     match text.trim().parse::<f64>() {
         Ok(gib) if gib > 0.0 && gib.is_finite() => Ok(Some(gib * GIB)),
-        _ => Err(TaskError::Input(format!(
-            "{VARIABLE}: expected a number of GiB above 0, such as 8, found {text}"
-        ))),
+        _ => Err(format!("{VARIABLE}: expected a number of GiB above 0, such as 8, found {text}")),
     }
 }
 

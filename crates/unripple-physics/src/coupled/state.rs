@@ -44,6 +44,7 @@ pub(super) fn proportional(modes: &Conservative, loads: &[Load]) -> bool {
 /// A, with ẏ = A y, is skew-symmetric except for dissipation. In this scaling the matrix is well balanced for the eigensolver. With the signs
 /// J = diag(-1, 1, -1) of the three parts JA is symmetric, so that yᵀJy' vanishes between two eigenvectors.
 pub(super) struct State<'a> {
+    /// The undamped modes, whose motion the state is.
     pub modes: &'a Conservative,
     /// The inductive coils, with the index of the load of each.
     pub coils: Vec<(usize, Circuit)>,
@@ -51,6 +52,7 @@ pub(super) struct State<'a> {
 }
 
 impl<'a> State<'a> {
+    /// The state of modes, of the loads on them and of what drives them.
     pub fn of(modes: &'a Conservative, loads: &[Load], drives: &'a Drives) -> Self {
         let coil = |(j, load): (usize, &Load)| Some((j, load.inductive_coil()?));
         Self { modes, coils: loads.iter().enumerate().filter_map(coil).collect(), drives }

@@ -52,6 +52,7 @@ impl Reaction {
     }
 }
 
+/// No force, to begin sums with.
 const ZERO: c64 = c64::new(0.0, 0.0);
 
 impl Circuit {

@@ -1,7 +1,7 @@
 //! What a rectangle's modes cost, in memory and time, before any is computed.
 
 use super::super::ritz::ABOVE;
-use super::adapt::{FURTHER, first_counts};
+use super::counts::{FURTHER, first_counts};
 use super::problem::Problem;
 use super::ritz::LARGE;
 use super::separable::Separable;

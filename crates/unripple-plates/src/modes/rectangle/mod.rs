@@ -2,6 +2,7 @@
 
 mod adapt;
 mod cost;
+mod counts;
 mod integrated;
 mod line;
 mod order;
