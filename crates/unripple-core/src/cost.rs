@@ -23,7 +23,7 @@ pub struct Cost {
 impl Cost {
     /// Floating-point operations per second of the machine on which the laws were measured, in large products of matrices of double
     /// precision on one processor.
-    pub const RATE: f64 = 2e10;
+    pub const RATE: f64 = 3e10;
 
     /// The cost of so many floating-point operations, a pure number, in large products of matrices.
     pub fn of_operations(operations: f64) -> Self {

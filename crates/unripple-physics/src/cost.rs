@@ -8,10 +8,10 @@ use unripple_core::{Cost, Surface};
 
 /// Operations for the modes with loads, as a multiple of the cube of their number, in products of matrices that take as long: an
 /// eigenvalue problem and products with its vectors.
-const COUPLED: f64 = 40.0;
+const COUPLED: f64 = 180.0;
 
 /// Operations for each damped mode with loads, relative to those of products: of small complex systems, some steps for each.
-const DAMPED: f64 = 12.0;
+const DAMPED: f64 = 20.0;
 
 /// The estimated cost of [`responses()`](crate::responses()): of the modes of the sheet, unless a cache holds them, and of those with loads.
 ///
@@ -44,6 +44,6 @@ pub(crate) fn of(surface: &Surface, asked: &Asked) -> Result<Cost, PhysicsError>
     guard(count as usize, 0, asked.coupled_hz())?;
     let step = 4.0 * loads * loads * count + rest.powi(3) + 4.0 * rest * rest * loads;
     let coupled = Cost::of_operations(COUPLED * count.powi(3) + DAMPED * count * step);
-    // Eight square matrices.
-    Ok(sheet + coupled + Cost { seconds: 0.0, bytes: 64.0 * count * count })
+    // Some thirty square matrices, with those of all oscillations.
+    Ok(sheet + coupled + Cost { seconds: 0.0, bytes: 250.0 * count * count })
 }

@@ -15,7 +15,7 @@ use unripple_core::{Cost, Edge, Memory};
 const DENSE: f64 = 8.0;
 
 /// Seconds of the estimate of the error of a sparse problem, and of its lowest modes combined anew, for each function and mode.
-const SPARSE: f64 = 8e-7;
+const SPARSE: f64 = 6e-7;
 
 /// Refuses a problem that would not fit in memory, before any is allocated.
 pub(super) fn guard(problem: &Problem, counts: [usize; 2]) -> Result<(), PhysicsError> {
