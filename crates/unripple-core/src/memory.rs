@@ -5,7 +5,7 @@ use std::cell::RefCell;
 
 /// Memory that a computation may take where nothing else is said, in bytes: 4 GiB, which a small machine has. With half this value, some
 /// surfaces that fit would be refused.
-const USUAL: f64 = 4.0 * (1u64 << 30) as f64;
+const USUAL: f64 = 4.0 * Memory::GIB;
 
 thread_local! {
     /// The memory that computations begun on this thread may take; `None` for the usual one.
@@ -33,6 +33,9 @@ impl Default for Memory {
 }
 
 impl Memory {
+    /// Bytes of a GiB, 2³⁰ by definition.
+    pub const GIB: f64 = (1u64 << 30) as f64;
+
     /// So many bytes.
     pub fn of(bytes: f64) -> Self {
         Self(bytes)

@@ -2,9 +2,6 @@
 
 use unripple_core::{Memory, OutOfRange, OutlineFault};
 
-/// Bytes of a GiB, 2³⁰ by definition.
-const GIB: f64 = (1u64 << 30) as f64;
-
 /// Why modes, responses or design figures of a surface could not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -70,8 +67,8 @@ impl PhysicsError {
     /// The error for modes up to `max_hz` (Hz) with so many unknowns that `needed` bytes would exceed [the memory allowed](Memory::here);
     /// modes up to `nearest_hz` (Hz) would fit.
     pub fn too_large(max_hz: f64, unknowns: usize, needed: f64, nearest_hz: f64) -> Self {
-        let limit_gib = Memory::here().bytes() / GIB;
-        Self::TooLarge { max_hz, unknowns, needed_gib: needed / GIB, limit_gib, nearest_hz }
+        let limit_gib = Memory::here().bytes() / Memory::GIB;
+        Self::TooLarge { max_hz, unknowns, needed_gib: needed / Memory::GIB, limit_gib, nearest_hz }
     }
 }
 

@@ -24,9 +24,6 @@ pub(crate) const SLOWEST: f64 = 0.05;
 /// Number of products, of which the fastest counts, since other work delays some.
 const TIMES: usize = 5;
 
-/// Bytes of a GiB, 2³⁰ by definition.
-const GIB: f64 = (1u64 << 30) as f64;
-
 /// The memory that solutions for modes may take: as much as the variable `UNRIPPLE_MEMORY_GIB` says, 4 GiB by default, but not more than the
 /// machine has to spare.
 pub fn memory() -> Memory {
@@ -42,7 +39,7 @@ pub fn asked() -> Result<Option<f64>, String> {
     let Some(text) = env::var_os(VARIABLE).filter(|text| !text.is_empty()) else { return Ok(None) };
     let text = text.to_string_lossy();
     match text.trim().parse::<f64>() {
-        Ok(gib) if gib > 0.0 && gib.is_finite() => Ok(Some(gib * GIB)),
+        Ok(gib) if gib > 0.0 && gib.is_finite() => Ok(Some(gib * Memory::GIB)),
         _ => Err(format!("{VARIABLE}: expected a number of GiB above 0, such as 8, found {text}")),
     }
 }
@@ -52,7 +49,7 @@ pub(crate) fn told(error: &PhysicsError) -> String {
     let PhysicsError::TooLarge { needed_gib, .. } = error else { return error.to_string() };
     // Some more, since the estimate is one.
     let gib = (1.1 * needed_gib).ceil();
-    match spare().is_some_and(|spare| gib * GIB <= SHARE * spare) {
+    match spare().is_some_and(|spare| gib * Memory::GIB <= SHARE * spare) {
         true => format!("{error}; {VARIABLE}={gib} allows it on this machine"),
         false => error.to_string(),
     }

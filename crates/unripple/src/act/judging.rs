@@ -186,7 +186,7 @@ fn told(surface: &Surface, hz: f64) -> String {
 fn is_out_of_reach(error: &ActError) -> bool {
     match error {
         ActError::Physics(PhysicsError::TooLarge { needed_gib, .. }) => {
-            !Memory::default().holds(needed_gib * (1u64 << 30) as f64)
+            !Memory::default().holds(needed_gib * Memory::GIB)
         }
         ActError::Physics(error) => {
             matches!(error, PhysicsError::NotConverged { .. } | PhysicsError::Solver { .. })

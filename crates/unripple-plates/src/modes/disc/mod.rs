@@ -81,17 +81,16 @@ fn places(orders: &[OrderModes]) -> Vec<Place> {
 /// # Errors
 /// [`PhysicsError::TooLarge`] if it does not fit in memory.
 pub(crate) fn cost(problem: &Problem) -> Result<Cost, PhysicsError> {
-    guard(problem)?;
-    Ok(Cost { seconds: 0.0, bytes: BYTES * (problem.bounds.k_top * problem.radius).powi(3) })
+    Ok(Cost { seconds: 0.0, bytes: guard(problem)? })
 }
 
-/// Refuses a problem that would not fit in memory, before any is allocated.
-fn guard(problem: &Problem) -> Result<(), PhysicsError> {
+/// The memory that a problem takes, in bytes; refuses one that would not fit, before any is allocated.
+fn guard(problem: &Problem) -> Result<f64, PhysicsError> {
     let reach = problem.bounds.k_top * problem.radius;
     let needed = BYTES * reach.powi(3);
     let memory = Memory::here();
     if memory.holds(needed) {
-        return Ok(());
+        return Ok(needed);
     }
     let nearest = problem.bounds.k_top * (memory.bytes() / needed).cbrt();
     let nearest_hz = problem.bounds.medium.omega(nearest) / TAU;
