@@ -181,7 +181,7 @@ impl<'a> State<'a> {
             let coil = self.drives.coils[drive].and_then(|load| self.coils.iter().find(|(j, _)| *j == load));
             let Some((load, circuit)) = coil else { return forced / norm };
             let moved: c64 = shape.iter().enumerate().map(|(i, z)| z * self.modes.at_loads[(*load, i)]).sum();
-            let force = moved * circuit.force_constant / (s * circuit.inductance + circuit.resistance);
+            let force = moved * circuit.force_constant * circuit.admittance(s);
             (forced + force) / norm
         };
         (0..self.drives.coils.len()).map(of).collect()

@@ -41,7 +41,7 @@ impl Reaction {
 
     /// Force per displacement at the complex frequency `s`.
     fn at(&self, s: c64) -> c64 {
-        let coil = self.coil.map_or(ZERO, |coil| s * coil.damping_at(s));
+        let coil = s * Circuit::reaction(self.coil.as_ref(), s);
         s * (s * self.mass + self.damping) + self.stiffness + coil
     }
 
@@ -56,14 +56,9 @@ impl Reaction {
 const ZERO: c64 = c64::new(0.0, 0.0);
 
 impl Circuit {
-    /// Damping (bl)²/(R + sL) by a coil, in N·s/m.
-    fn damping_at(&self, s: c64) -> c64 {
-        self.force_constant * self.force_constant / (s * self.inductance + self.resistance)
-    }
-
     /// The derivative of s (bl)²/(R + sL).
     fn damping_slope(&self, s: c64) -> c64 {
-        let share = self.force_constant / (s * self.inductance + self.resistance);
+        let share = self.admittance(s) * self.force_constant;
         share * share * self.resistance
     }
 }
@@ -120,7 +115,7 @@ impl<'a> System<'a> {
         let sum = |part: &dyn Fn(&Circuit) -> c64| coils.iter().map(|(v, coil)| v * part(coil)).sum::<c64>();
         let slope = |s: c64| mass * s * 2.0 + damping + sum(&|coil| coil.damping_slope(s));
         for _ in 0..NEWTON {
-            let value = s * (s * mass + damping + sum(&|coil| coil.damping_at(s))) + stiffness;
+            let value = s * (s * mass + damping + sum(&|coil| Circuit::reaction(Some(coil), s))) + stiffness;
             let step = value / slope(s);
             s -= step;
             if step.norm() <= f64::EPSILON * s.norm() {
