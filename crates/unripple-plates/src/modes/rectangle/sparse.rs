@@ -243,7 +243,8 @@ fn turned(
 
 #[cfg(test)]
 mod tests {
-    use super::super::adapt::{first_counts, lines, plate, sparse};
+    use super::super::adapt::{lines, plate, sparse};
+    use super::super::counts::first_counts;
     use super::super::problem::Problem;
     use super::super::ritz::solve_block;
     use super::*;
