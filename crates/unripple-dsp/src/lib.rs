@@ -31,6 +31,7 @@
 //! ```
 
 mod convolve;
+mod correlations;
 mod error;
 mod integral;
 mod interpolate;
@@ -44,6 +45,7 @@ mod threshold;
 mod weighting;
 
 pub use convolve::{Convolver, convolve, smooth_size};
+pub use correlations::Correlations;
 pub use error::DspError;
 pub use integral::integral;
 pub use realfft::num_complex::Complex;
