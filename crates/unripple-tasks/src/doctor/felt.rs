@@ -2,7 +2,7 @@
 
 use super::check::Check;
 use crate::judge::{self, Judging, Models};
-use crate::place::anywhere;
+use crate::position::anywhere;
 use crate::{Solved, TaskError};
 use unripple::core::{Contact, Responses, Surface};
 use unripple::field::{Aim, Field, TargetFigures};

@@ -1,7 +1,7 @@
 //! Loss of peak and contrast of a focus whose drive was computed for an earlier tension.
 
 use crate::TaskError;
-use crate::place::anywhere;
+use crate::position::anywhere;
 use serde::Serialize;
 use unripple::core::{Drive, ModalResponses, Point, Responses, Surface};
 use unripple::field::{Field, Instant};
