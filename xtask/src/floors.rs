@@ -14,6 +14,7 @@ const FLOORS: &[(&str, i8)] = &[
     ("unripple-field", 2),
     ("unripple-player", 2),
     ("unripple-effects", 2),
+    ("unripple-placement", 3),
     ("unripple-store", 3),
     ("unripple-plot", 3),
     ("unripple-touch", 3),

@@ -84,6 +84,7 @@ pub use unripple_field as field;
 pub use unripple_focus as focus;
 pub use unripple_linalg as linalg;
 pub use unripple_physics as physics;
+pub use unripple_placement as placement;
 pub use unripple_plates as plates;
 pub use unripple_player as player;
 pub use unripple_plot as plot;

@@ -1,0 +1,56 @@
+//! The best layout of all, by looking at every one: a certificate where there are few.
+
+use crate::{Chosen, Found, Search};
+use rayon::prelude::*;
+
+/// Largest number of contrasts that are computed for a certificate: some seconds. With ten times as many, a search would mostly wait for it.
+const MOST: f64 = 2e9;
+
+impl Search<'_> {
+    /// Number of layouts of `count` actuators, least distances aside.
+    pub fn layouts(&self, count: usize) -> f64 {
+        let places = (self.at.len() - self.kept) as f64;
+        let layouts: f64 = (0..count).map(|i| (places - i as f64).max(0.0) / (i as f64 + 1.0)).product();
+        layouts.min(f64::MAX)
+    }
+
+    /// The best of all layouts of `count` actuators beside those that stay; `None` if there are too many to look at, or none.
+    pub fn best_of_all(&self, count: usize) -> Option<Found> {
+        if count == 0 || self.layouts(count) * self.forms.cases() as f64 > MOST {
+            return None;
+        }
+        let first = self.kept..self.at.len();
+        let best = first.into_par_iter().map(|a| {
+            let mut set: Vec<usize> = (0..self.kept).collect();
+            if !self.is_free(&set, a) {
+                return None;
+            }
+            set.push(a);
+            self.among(set, count - 1)
+        });
+        let better = |one: Option<Found>, other: Option<Found>| match (one, other) {
+            (Some(one), Some(other)) => Some(if other.score > one.score { other } else { one }),
+            (one, other) => one.or(other),
+        };
+        // In the order of the places, whatever the number of threads.
+        best.collect::<Vec<_>>().into_iter().fold(None, better)
+    }
+
+    /// The best of all layouts that have `more` actuators beside those of a set, all of them later than its last.
+    fn among(&self, set: Vec<usize>, more: usize) -> Option<Found> {
+        let now = Chosen::new(self.forms, set);
+        if more == 0 {
+            return Some(Found { score: now.score(self.objective), actuators: now.actuators().to_vec() });
+        }
+        let after = now.actuators().last().map_or(self.kept, |last| last + 1);
+        let rest = (after..self.at.len()).filter(|b| self.is_free(now.actuators(), *b));
+        let with = |b: usize| now.actuators().iter().copied().chain([b]).collect::<Vec<_>>();
+        if more == 1 {
+            let scores = now.with_each(self.objective);
+            let best = rest.reduce(|best, b| if scores[b] > scores[best] { b } else { best })?;
+            return Some(Found { score: scores[best], actuators: with(best) });
+        }
+        let found = rest.filter_map(|b| self.among(with(b), more - 1));
+        found.reduce(|best, found| if found.score > best.score { found } else { best })
+    }
+}

@@ -1,0 +1,103 @@
+//! How good a layout is, target by target.
+
+use crate::{Aim, Forms, Objective, PlacementError, Plant};
+use unripple_core::Point;
+
+/// What time reversal from a layout achieves at one target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reached {
+    /// Contrast: peak velocity over the rms outside the focal disc at the focal instant; the mean over the models of the surface.
+    pub contrast: f64,
+    /// Energy of the drive for a peak velocity of 1 m/s, in squared units of drive times seconds; the mean over the models.
+    pub energy: f64,
+}
+
+/// What time reversal achieves at each target from the actuators that stay and one more at each of `places` (m).
+///
+/// # Errors
+/// Those of [`Forms::new`].
+///
+/// ```
+/// use unripple_core::Point;
+/// use unripple_physics::design::papers_surface;
+/// use unripple_placement::{Aim, Plant, reached};
+///
+/// let mut film = papers_surface();
+/// film.emission.band = [0.0, 1000.0];
+/// let kind = film.actuators[7].clone();
+/// let aim = Aim { at: Point::from_mm(62.0, 90.0), weight: 1.0 };
+/// let eight = reached(&[Plant::new(film.clone(), &kind)?], &[], &[aim], 30e-3)?;
+/// // The last one is put back where it was.
+/// film.actuators.pop();
+/// let again = reached(&[Plant::new(film, &kind)?], &[kind.at], &[aim], 30e-3)?;
+/// assert!((eight[0].contrast / again[0].contrast - 1.0).abs() < 1e-4);
+/// # Ok::<(), unripple_placement::PlacementError>(())
+/// ```
+pub fn reached(
+    plants: &[Plant],
+    places: &[Point],
+    aims: &[Aim],
+    window: f64,
+) -> Result<Vec<Reached>, PlacementError> {
+    let mut found = reached_each(plants, std::slice::from_ref(&places.to_vec()), aims, window)?;
+    Ok(found.remove(0))
+}
+
+/// Places of layouts that are evaluated at once: more of them share what does not depend on places, and take more memory.
+const AT_ONCE: usize = 400;
+
+/// What [`reached`] returns, for each of several layouts.
+///
+/// # Errors
+/// Those of [`Forms::new`].
+pub fn reached_each(
+    plants: &[Plant],
+    layouts: &[Vec<Point>],
+    aims: &[Aim],
+    window: f64,
+) -> Result<Vec<Vec<Reached>>, PlacementError> {
+    let kept = plants.first().map_or(0, Plant::kept);
+    let mut found = Vec::with_capacity(layouts.len());
+    let mut rest = layouts;
+    while !rest.is_empty() {
+        let mut total = 0;
+        let many = rest.iter().take_while(|layout| {
+            total += layout.len();
+            total <= AT_ONCE
+        });
+        let (batch, later) = rest.split_at(many.count().max(1));
+        let places: Vec<Point> = batch.iter().flatten().copied().collect();
+        let forms = Forms::new(plants, &places, aims, window, 0.0)?;
+        let mut first = kept;
+        for layout in batch {
+            let set: Vec<usize> = (0..kept).chain(first..first + layout.len()).collect();
+            first += layout.len();
+            found.push(of_targets(&forms, &set, aims.len()));
+        }
+        rest = later;
+    }
+    Ok(found)
+}
+
+/// What a set of actuators achieves at each target.
+fn of_targets(forms: &Forms, set: &[usize], targets: usize) -> Vec<Reached> {
+    let (peaks, contrasts) = forms.of_set(set);
+    let energies: Vec<f64> = forms.energies(&peaks).collect();
+    // Cases are in the order of the models, and for each in that of the targets.
+    let mean = |of: &[f64], target: usize| {
+        let share = |case: usize| of[case] * forms.weights()[case];
+        let cases = || (target..forms.cases()).step_by(targets);
+        cases().map(share).sum::<f64>() / cases().map(|case| forms.weights()[case]).sum::<f64>()
+    };
+    (0..targets)
+        .map(|target| Reached { contrast: mean(&contrasts, target), energy: mean(&energies, target) })
+        .collect()
+}
+
+/// A figure of the contrasts at some targets.
+pub fn figure(reached: &[Reached], aims: &[Aim], objective: Objective) -> f64 {
+    let total: f64 = aims.iter().map(|aim| aim.weight).sum();
+    let weights: Vec<f64> = aims.iter().map(|aim| aim.weight / total).collect();
+    let contrasts: Vec<f64> = reached.iter().map(|reached| reached.contrast).collect();
+    objective.of(&contrasts, &weights)
+}

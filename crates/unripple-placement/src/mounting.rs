@@ -1,0 +1,81 @@
+//! Places that are known to within an error.
+
+use crate::{PlacementError, Plant};
+use unripple_core::{ModalResponses, Point};
+use unripple_linalg::Mat;
+
+/// Where an actuator may be that is known to be at a place: nodes of a quadrature, each of the same weight.
+///
+/// Errors along both axes are independent and uniform. Four nodes, the product of two-point Gauss-Legendre rules, integrate polynomials of
+/// degree three in each coordinate.
+#[derive(Debug)]
+pub struct Mounting(Vec<[f64; 2]>);
+
+/// Responses to actuators at every node of where each may be.
+#[derive(Debug)]
+pub struct Inputs {
+    /// Responses to the actuators where they are said to be.
+    pub nominal: ModalResponses,
+    /// Input weights at every node, actuators x modes.
+    nodes: Vec<Mat<f64>>,
+}
+
+impl Mounting {
+    /// Errors of up to `error` (m) along each axis; a single node where that is 0.
+    pub fn of(error: f64) -> Self {
+        let at = error / 3.0_f64.sqrt();
+        let nodes = [[-at, -at], [at, -at], [-at, at], [at, at]];
+        Self(if error == 0.0 { vec![[0.0; 2]] } else { nodes.to_vec() })
+    }
+
+    /// The responses to the actuators that stay, which are where they are, and to one more at each of `places` (m), at every node. Where
+    /// no actuator can be at a node, it is taken to be at the place itself.
+    ///
+    /// # Errors
+    /// Those of [`Plant::responses`].
+    pub fn inputs(&self, plant: &Plant, places: &[Point]) -> Result<Inputs, PlacementError> {
+        let nominal = plant.responses(places)?;
+        let moved = |[x, y]: [f64; 2]| -> Vec<Point> {
+            let there = |place: &Point| Point::new(place.x + x, place.y + y);
+            places
+                .iter()
+                .map(|place| Some(there(place)).filter(|p| plant.holds(*p)).unwrap_or(*place))
+                .collect()
+        };
+        let nodes = match self.0.as_slice() {
+            [_] => vec![nominal.input.clone()],
+            nodes => {
+                let inputs = nodes.iter().map(|node| Ok(plant.responses(&moved(*node))?.input));
+                inputs.collect::<Result<_, PlacementError>>()?
+            }
+        };
+        Ok(Inputs { nominal, nodes })
+    }
+}
+
+impl Inputs {
+    /// Number of actuators.
+    pub fn actuators(&self) -> usize {
+        self.nominal.input.nrows()
+    }
+
+    /// Number of modes.
+    pub fn modes(&self) -> usize {
+        self.nominal.poles.len()
+    }
+
+    /// The largest input weight anywhere.
+    pub fn largest(&self) -> f64 {
+        let all = self.nodes.iter().flat_map(|node| node.col_iter().flat_map(|column| column.iter()));
+        all.fold(0.0, |most: f64, weight| most.max(weight.abs())).max(f64::MIN_POSITIVE)
+    }
+
+    /// The input weights at every node in single precision, modes x actuators, relative to the [`largest`](Self::largest).
+    pub fn scaled(&self) -> Vec<Mat<f32>> {
+        let largest = self.largest();
+        let scaled = |node: &Mat<f64>| {
+            Mat::from_fn(node.ncols(), node.nrows(), |m, a| (node[(a, m)] / largest) as f32)
+        };
+        self.nodes.iter().map(scaled).collect()
+    }
+}

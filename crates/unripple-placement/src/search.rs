@@ -1,0 +1,151 @@
+//! The search for the best places: greedy start, exchange to a local optimum, restarts.
+
+use crate::{Chosen, Forms, Objective, PlacementError};
+use rayon::prelude::*;
+use unripple_core::{Point, Random};
+
+/// Least relative gain for which an actuator is moved. With much less, rounding errors of single precision would move actuators for ever.
+const GAIN: f64 = 1e-5;
+
+/// Distance in metres below which two places are one. No actuator is that small.
+const COINCIDENT: f64 = 1e-6;
+
+/// Random layouts that are tried before places count as too close to each other.
+const TRIES: usize = 100;
+
+/// What is searched: forms, where the actuators are, and what may be chosen.
+#[derive(Clone, Copy, Debug)]
+pub struct Search<'a> {
+    /// Quadratic forms of all actuators: those that stay first, then one at each place.
+    pub forms: &'a Forms,
+    /// Where each actuator of the forms is, in metres.
+    pub at: &'a [Point],
+    /// Number of actuators that stay; they are in every layout.
+    pub kept: usize,
+    /// Least distance between any two actuators, in metres.
+    pub apart: f64,
+    /// What is made large.
+    pub objective: Objective,
+}
+
+/// A layout that cannot be improved by moving any one of its actuators, and how good it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// Indices of its actuators in the forms; those that stay come first.
+    pub actuators: Vec<usize>,
+    /// The figure that was made large.
+    pub score: f64,
+}
+
+impl Search<'_> {
+    /// The best layouts of every number of actuators from 1 to `most` (beside those that stay): each begins with the one before and the
+    /// actuator that gains most, and is improved by exchange.
+    ///
+    /// # Errors
+    /// [`PlacementError::Few`] if the places do not hold so many.
+    pub fn each_number(&self, most: usize) -> Result<Vec<Found>, PlacementError> {
+        let mut layouts: Vec<Found> = Vec::new();
+        for number in 1..=most {
+            let before =
+                layouts.last().map_or_else(|| (0..self.kept).collect(), |found| found.actuators.clone());
+            let more = self.best_of(&Chosen::new(self.forms, before.clone()), |_| true);
+            let (more, _) = more.ok_or(PlacementError::Few { expected: most, found: number - 1 })?;
+            let mut actuators = before;
+            actuators.push(more);
+            layouts.push(self.exchanged(actuators));
+        }
+        Ok(layouts)
+    }
+
+    /// The best of several layouts of `count` actuators, beside those that stay, improved by exchange from as many random beginnings.
+    /// The order is that of the beginnings, whatever the number of threads.
+    ///
+    /// # Errors
+    /// [`PlacementError::Few`] if no random layout of so many actuators was found.
+    pub fn restarts(&self, count: usize, restarts: usize, seed: u64) -> Result<Vec<Found>, PlacementError> {
+        let from = self.random(count, restarts, seed)?;
+        Ok(from.into_par_iter().map(|actuators| self.exchanged(actuators)).collect())
+    }
+
+    /// Random layouts of `count` actuators, beside those that stay.
+    ///
+    /// # Errors
+    /// [`PlacementError::Few`] if none was found that keeps the least distance.
+    pub fn random(&self, count: usize, layouts: usize, seed: u64) -> Result<Vec<Vec<usize>>, PlacementError> {
+        let mut random = Random::seeded(seed);
+        let places = self.at.len() - self.kept;
+        let mut most = 0;
+        let mut one = || {
+            for _ in 0..TRIES {
+                let mut layout: Vec<usize> = (0..self.kept).collect();
+                let mut order: Vec<usize> = (self.kept..self.at.len()).collect();
+                for i in 0..places {
+                    let j = i + ((random.uniform() * (places - i) as f64) as usize).min(places - i - 1);
+                    order.swap(i, j);
+                    if layout.len() < self.kept + count && self.is_free(&layout, order[i]) {
+                        layout.push(order[i]);
+                    }
+                }
+                if layout.len() == self.kept + count {
+                    return Ok(layout);
+                }
+                most = most.max(layout.len() - self.kept);
+            }
+            Err(PlacementError::Few { expected: count, found: most })
+        };
+        (0..layouts).map(|_| one()).collect()
+    }
+
+    /// The figure of a layout.
+    pub fn score(&self, actuators: Vec<usize>) -> f64 {
+        Chosen::new(self.forms, actuators).score(self.objective)
+    }
+
+    /// A layout in which no single actuator can be moved to a better place: each in turn is moved to the best one, until none gains.
+    pub fn exchanged(&self, actuators: Vec<usize>) -> Found {
+        self.exchanged_among(actuators, |_, _| true)
+    }
+
+    /// The same where only some moves are allowed: `may` says whether the actuator at a position of the layout may be one of the forms.
+    pub(crate) fn exchanged_among(&self, actuators: Vec<usize>, may: impl Fn(usize, usize) -> bool) -> Found {
+        let mut now = Chosen::new(self.forms, actuators);
+        let mut score = now.score(self.objective);
+        let (mut position, mut settled) = (self.kept, 0);
+        let movable = now.actuators().len() - self.kept;
+        while settled < movable {
+            let rest = now.without(position);
+            let best = self.best_of(&rest, |b| may(position, b));
+            match best.filter(|(_, reached)| *reached > score * (1.0 + GAIN)) {
+                Some((best, reached)) => {
+                    (now, score, settled) = (rest.with(position, best), reached, 0);
+                }
+                None => settled += 1,
+            }
+            position += 1;
+            if position == self.kept + movable {
+                position = self.kept;
+                // Sums that change by differences gather rounding errors.
+                now = Chosen::new(self.forms, now.actuators().to_vec());
+            }
+        }
+        Found { score: now.score(self.objective), actuators: now.actuators().to_vec() }
+    }
+
+    /// The actuator that makes the figure of a set largest, and that figure; `None` if no place is free.
+    fn best_of(&self, set: &Chosen<'_>, may: impl Fn(usize) -> bool) -> Option<(usize, f64)> {
+        let scores = set.with_each(self.objective);
+        let mut best: Option<(usize, f64)> = None;
+        for (b, score) in scores.iter().enumerate().skip(self.kept) {
+            if best.is_none_or(|(_, most)| *score > most) && may(b) && self.is_free(set.actuators(), b) {
+                best = Some((b, *score));
+            }
+        }
+        best
+    }
+
+    /// Whether an actuator keeps its distance from those of a set, and is none of them.
+    pub fn is_free(&self, set: &[usize], b: usize) -> bool {
+        let far = |a: usize| self.at[a].distance(self.at[b]) >= self.apart.max(COINCIDENT);
+        set.iter().all(|a| *a != b && far(*a))
+    }
+}
