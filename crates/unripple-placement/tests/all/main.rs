@@ -1,0 +1,8 @@
+//! Tests of the search for places.
+
+mod bench;
+
+mod contrast;
+mod exhaustive;
+mod mounting;
+mod search;
