@@ -55,6 +55,7 @@ pub mod modes;
 mod names;
 mod numbers;
 pub mod own;
+pub mod place;
 pub mod play;
 mod played;
 mod position;

@@ -5,7 +5,7 @@ use crate::record::{Record, Request};
 use crate::{Progress, TaskError};
 use crate::{
     calibrate, check, compare, design, devices, doctor, drift, export, field, fit, focus, materials, modes,
-    play, respond, stroke, waveform,
+    place, play, respond, stroke, waveform,
 };
 use serde_json::Value;
 use std::path::PathBuf;
@@ -36,7 +36,7 @@ macro_rules! commands {
 
 /// The tasks in the order in which a surface is developed: designed, simulated, driven, measured, played.
 pub(super) const TASKS: &[Command] = &commands![
-    check, design, modes, materials, focus, waveform, stroke, field, compare, respond, calibrate, fit,
+    check, design, modes, materials, place, focus, waveform, stroke, field, compare, respond, calibrate, fit,
     export, drift, doctor, devices, play
 ];
 

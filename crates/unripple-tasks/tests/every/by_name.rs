@@ -19,6 +19,7 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<design::Ask>();
     whole::<modes::Ask>();
     whole::<materials::Ask>();
+    whole::<place::Ask>();
     whole::<focus::Ask>();
     whole::<waveform::Ask>();
     whole::<stroke::Ask>();
@@ -33,7 +34,7 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<devices::Ask>();
     whole::<play::Ask>();
     whole::<rerun::Ask>();
-    assert_eq!(commands::COMMANDS.len(), 18);
+    assert_eq!(commands::COMMANDS.len(), 19);
 }
 
 #[test]

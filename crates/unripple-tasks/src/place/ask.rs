@@ -1,0 +1,141 @@
+//! Options of the task `place`.
+
+use crate::record::Request;
+use crate::{Place, SurfaceAsk, names};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+use unripple::focus::Method;
+use unripple_placement::Objective;
+
+/// Which actuators to place, where they may be, and what for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ask {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: SurfaceAsk,
+    /// Number of actuators to place.
+    pub count: usize,
+    /// Names of actuators of the surface that stay where they are, beside those that are placed; all others are taken away.
+    pub keep: Vec<String>,
+    /// Keep all actuators of the surface.
+    pub keep_all: bool,
+    /// Name of an actuator of the surface that those to be placed are like; by default its first actuator.
+    pub like: Option<String>,
+    /// Least and greatest distance of the places from the rim, in m; by default anywhere.
+    pub rim_m: Option<[f64; 2]>,
+    /// Polygons in one of which places must lie, each as its corners in m; by default the whole surface.
+    pub within_m: Vec<Vec<Place>>,
+    /// Polygons in which no place may lie, each as its corners in m.
+    pub keep_out_m: Vec<Vec<Place>>,
+    /// Places to choose from, in m, instead of those of a grid.
+    pub places_m: Vec<Place>,
+    /// Spacing of the grid of places to choose from, in m; by default a seventh of the shortest wavelength.
+    pub pitch_m: Option<f64>,
+    /// Least distance between any two actuators, in m; by default that at which two of those placed would touch.
+    pub apart_m: Option<f64>,
+    /// Targets, in m; by default spread evenly over the surface.
+    pub points_m: Vec<Place>,
+    /// Weight of each target; by default all weigh the same.
+    pub weights: Vec<f64>,
+    /// Polygons, such as the screen, in one of which targets must lie, each as its corners in m; by default anywhere at least one shortest
+    /// wavelength from the rim.
+    pub targets_within_m: Vec<Vec<Place>>,
+    /// Number of targets to place for, if none are given; layouts are evaluated on three times as many others.
+    pub targets: usize,
+    /// What is made large.
+    pub objective: ObjectiveAsk,
+    /// For the objective `quantile`: share of the targets that may be worse, 0 to 1.
+    pub share: f64,
+    /// Error of the places along each axis, in m, up to which layouts are to be good.
+    pub mounting_m: f64,
+    /// Relative error of the tension up to which layouts are to be good.
+    pub tension: f64,
+    /// Window T in s; by default the one that `design` recommends for evenly spread actuators.
+    pub window_s: Option<f64>,
+    /// Number of random layouts that the search begins from, beside the greedy one.
+    pub restarts: usize,
+    /// Seed of the random layouts.
+    pub seed: u64,
+    /// Largest number of actuators of the curve of contrast against their number; by default twice `count`.
+    pub up_to: Option<usize>,
+    /// Methods of focusing whose drives are evaluated before and after.
+    #[serde(with = "names::methods")]
+    pub methods: Vec<Method>,
+    /// Folder for the placed surface, report and figures; by default no file is written.
+    pub output: Option<PathBuf>,
+    /// Write no figures.
+    pub no_figures: bool,
+    /// Width of all figures in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default each figure
+    /// has its own width.
+    pub columns: Option<usize>,
+}
+
+/// What is made large.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ObjectiveAsk {
+    /// The mean of the contrasts at all targets.
+    #[default]
+    Mean,
+    /// The least contrast.
+    Worst,
+    /// The contrast that a share of the targets stays below.
+    Quantile,
+}
+
+impl Ask {
+    /// What is made large.
+    pub(super) fn objective(&self) -> Objective {
+        match self.objective {
+            ObjectiveAsk::Mean => Objective::Mean,
+            ObjectiveAsk::Worst => Objective::Worst,
+            ObjectiveAsk::Quantile => Objective::Quantile(self.share),
+        }
+    }
+}
+
+impl Default for Ask {
+    fn default() -> Self {
+        Self {
+            surface: SurfaceAsk::default(),
+            count: 8,
+            keep: Vec::new(),
+            keep_all: false,
+            like: None,
+            rim_m: None,
+            within_m: Vec::new(),
+            keep_out_m: Vec::new(),
+            places_m: Vec::new(),
+            pitch_m: None,
+            apart_m: None,
+            points_m: Vec::new(),
+            weights: Vec::new(),
+            targets_within_m: Vec::new(),
+            targets: 20,
+            objective: ObjectiveAsk::Mean,
+            share: 0.1,
+            mounting_m: 0.0,
+            tension: 0.0,
+            window_s: None,
+            restarts: 10,
+            seed: 1,
+            up_to: None,
+            methods: Vec::new(),
+            output: None,
+            no_figures: false,
+            columns: None,
+        }
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "place";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output;
+    }
+}

@@ -1,0 +1,106 @@
+//! Drives of focusing methods, evaluated before and after actuators were placed.
+
+use super::setting::Setting;
+use crate::{Progress, Solved, TaskError, go_on, judge};
+use serde::Serialize;
+use unripple::act::{Act, Level, Readouts};
+use unripple::core::{Point, Surface};
+use unripple::focus::{Method, Options, Target};
+
+/// Number of targets on which drives are computed. With twice as many, this takes twice the time, which is most of the task's.
+const TARGETS: usize = 6;
+
+/// Means over some targets of what drives of a method reach, simulated on modes up to twice the top of the band.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ByMethod {
+    /// Name of the method.
+    pub method: &'static str,
+    /// Number of targets, each with a drive of its own.
+    pub targets: usize,
+    /// Results from the surface's own actuators; absent where it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub before: Option<Means>,
+    /// Results from the actuators as placed, with their loads.
+    pub after: Means,
+}
+
+/// Means over some targets; absent where a figure is not defined at one of them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Means {
+    /// Contrast at the focal instant.
+    pub contrast: Option<f64>,
+    /// Contrast of what is felt, in dB.
+    pub felt_contrast_db: Option<f64>,
+    /// Level that is felt at the target at the drive limit, in dB above threshold.
+    pub felt_level_db: Option<f64>,
+    /// Energy of the drive for a peak velocity of 1 m/s, in squared units of drive times seconds.
+    pub energy_for_peak: Option<f64>,
+}
+
+/// Results of every method on the surface as it is and as it was placed.
+pub(super) fn each(
+    methods: &[Method],
+    setting: &Setting,
+    built: &Surface,
+    progress: &mut dyn Progress,
+) -> Result<Vec<ByMethod>, TaskError> {
+    if methods.is_empty() {
+        return Ok(Vec::new());
+    }
+    let at: Vec<Point> = setting.tested.iter().take(TARGETS).map(|aim| aim.at).collect();
+    let own = &setting.surface;
+    let before = match own.actuators.is_empty() {
+        true => None,
+        false => Some(means(methods, own, &at, setting.window, progress)?),
+    };
+    let after = means(methods, built, &at, setting.window, progress)?;
+    let each = methods.iter().zip(after).enumerate().map(|(i, (method, after))| ByMethod {
+        method: method.name(),
+        targets: at.len(),
+        before: before.as_ref().map(|before| before[i].clone()),
+        after,
+    });
+    Ok(each.collect())
+}
+
+/// Results of every method on a surface.
+fn means(
+    methods: &[Method],
+    surface: &Surface,
+    at: &[Point],
+    window: f64,
+    progress: &mut dyn Progress,
+) -> Result<Vec<Means>, TaskError> {
+    let solved = Solved::default();
+    let known = solved.model(surface, None, &[])?;
+    go_on(progress)?;
+    let (judge::Models { free: plant, .. }, _) = judge::models(surface, None, &[], &solved)?;
+    let on = Readouts::of(&plant);
+    let mut all = Vec::with_capacity(methods.len());
+    for method in methods {
+        let mut sums = [Some(0.0); 4];
+        for target in at {
+            go_on(progress)?;
+            let options = Options {
+                method: *method,
+                window,
+                limit: surface.emission.limit,
+                rms_limit: surface.emission.rms_limit,
+                ..Options::default()
+            };
+            let targets = [Target::at(*target)];
+            let act =
+                Act { surface, responses: &plant, targets: &targets, options: &options, level: Level::Limit };
+            let measured = act.run_from(&known, &on)?.judged.measured;
+            let (found, peak) = (&measured.targets[0], measured.targets[0].peak_velocity_m_s);
+            let energy = measured.drive.energy / (peak * peak);
+            let values = [found.contrast, found.felt_contrast_db, found.felt_level_db, Some(energy)];
+            for (sum, value) in sums.iter_mut().zip(values) {
+                *sum = sum.zip(value).map(|(sum, value)| sum + value / at.len() as f64);
+            }
+        }
+        let [contrast, felt_contrast_db, felt_level_db, energy_for_peak] = sums;
+        all.push(Means { contrast, felt_contrast_db, felt_level_db, energy_for_peak });
+    }
+    Ok(all)
+}

@@ -1,0 +1,41 @@
+//! What a search for places costs, before anything is solved.
+
+use super::Ask;
+use crate::Progress;
+use crate::cost;
+use unripple::act::model_cost;
+use unripple::core::{Cost, Surface};
+use unripple::physics::design::expected_modes;
+
+/// Floating-point operations per second in single precision over those in double precision.
+const SINGLE: f64 = 2.0;
+
+/// Columns that are evaluated beside the places: layouts of random, perturbed and other numbers of actuators, for each actuator.
+const EVALUATED: usize = 100;
+
+/// Nodes of where each place may be, where it is known to within an error.
+const NODES: usize = 4;
+
+/// Tells what the search among so many places will cost.
+pub(super) fn announce(ask: &Ask, surface: &Surface, places: usize, progress: &mut dyn Progress) {
+    // What cannot be estimated is refused where it is computed.
+    if let Ok(model) = model_cost(surface, None, &[]) {
+        let less = "a lower top of the band, a larger pitch of the places or fewer targets";
+        cost::announce(model + search(ask, surface, places), less, progress);
+    }
+}
+
+/// The cost of the fields of all places and of layouts; the search itself is short beside them.
+fn search(ask: &Ask, surface: &Surface, places: usize) -> Cost {
+    let modes = expected_modes(surface, surface.emission.band[1]);
+    let trained = if ask.points_m.is_empty() { ask.targets } else { ask.points_m.len() } as f64;
+    let tested = if ask.points_m.is_empty() { super::setting::TESTED as f64 * trained } else { trained };
+    let nodes = if ask.mounting_m > 0.0 { NODES } else { 1 };
+    let models = if ask.tension > 0.0 { 3.0 } else { 1.0 };
+    let columns = (nodes * places) as f64 * trained + (EVALUATED * ask.count) as f64 * tested;
+    // Two products of modes x modes with a column, and rows of products of all places.
+    let operations =
+        models * (4.0 * modes * modes * columns + 2.0 * modes * trained * (places as f64).powi(2));
+    let bytes = 4.0 * models * trained * places as f64 * (2.0 * modes + places as f64);
+    Cost { bytes, ..Cost::of_operations(operations / SINGLE) }
+}

@@ -1,0 +1,18 @@
+//! `place`: finds where actuators should be, and how many of them there should be.
+
+mod ask;
+mod by_method;
+mod cost;
+mod figure;
+mod placed;
+mod refused;
+mod report;
+mod run;
+mod setting;
+mod text;
+
+pub use ask::{Ask, ObjectiveAsk};
+pub use by_method::ByMethod;
+pub use placed::{Best, Build, Layout, More, Number, Placed, Random, Restarts};
+pub use report::Report;
+pub use run::run;

@@ -1,0 +1,281 @@
+//! Finds places for actuators, and evaluates the layout.
+
+use super::placed::{Best, Build, Layout, More, Number, Random, Restarts};
+use super::refused::refused;
+use super::setting::Setting;
+use super::{Ask, Report, by_method, figure};
+use crate::figures::Columns;
+use crate::{Progress, TaskError, figures, folder, go_on};
+use unripple::core::{Actuator, Point, Surface};
+use unripple_placement::{
+    Aim, Chosen, Forms, Found, Objective, PlacementError, Polish, Reached, Search, figure as condensed,
+    reached, reached_each,
+};
+use unripple_store::to_toml;
+
+/// Random layouts that placed ones are compared with.
+const RANDOM: usize = 20;
+
+/// Errors of the places, in m, whose cost is told.
+const ERRORS: [f64; 3] = [0.5e-3, 1e-3, 2e-3];
+
+/// Random builds for each error. Their mean is within a quarter of their deviation.
+const BUILDS: usize = 20;
+
+/// Finds where actuators should be so that time reversal has the most contrast, evaluates the layout on targets that it was not placed
+/// for, and writes the surface with it to a folder if the request names one.
+///
+/// ```
+/// use unripple_tasks::{Silent, place};
+///
+/// // Four actuators near the rim of the paper's film, in a third of its band.
+/// let surface = unripple_tasks::SurfaceAsk::Set {
+///     name: "hudin-2012".into(),
+///     set: [("drive.band_hz".to_owned(), "[0, 1000]".to_owned())].into(),
+/// };
+/// let ask = place::Ask { surface, count: 4, rim_m: Some([6e-3, 12e-3]), restarts: 2, ..place::Ask::default() };
+/// let report = place::run(&ask, &mut Silent)?;
+/// let random = report.random.map_or(0.0, |random| random.mean_contrast);
+/// assert!(report.after.mean_contrast > 1.1 * random);
+/// # Ok::<(), unripple_tasks::TaskError>(())
+/// ```
+///
+/// # Errors
+/// [`TaskError::Ask`] of options that make no sense; those of reading the surface and writing the folder; [`TaskError::Input`] of places
+/// or models that the search does not fit; [`TaskError::Cancelled`].
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let columns = Columns::of(ask.columns)?;
+    let out = folder::begin(ask.output.as_deref(), ask)?;
+    let setting = Setting::of(ask, progress)?;
+    let (mut report, built, drawn) = found(ask, &setting, progress)?;
+    if let Some((out, record)) = out {
+        if !ask.no_figures {
+            progress.stage("figures");
+            report.files = figures::write(&out, &columns.fit(figure::all(&report, &setting, &drawn)))?;
+        }
+        out.write("surface.toml", to_toml(&built).as_bytes())?;
+        record.write(&out, &report)?;
+        out.write("report.md", report.markdown().as_bytes())?;
+        folder::finish(out, progress)?;
+    }
+    Ok(report)
+}
+
+/// The search, the surface as placed, and the objective with one actuator more at every place.
+fn found(
+    ask: &Ask,
+    setting: &Setting,
+    progress: &mut dyn Progress,
+) -> Result<(Report, Surface, Vec<f64>), TaskError> {
+    let kept = setting.plants[0].kept();
+    go_on(progress)?;
+    progress.stage("fields of all places");
+    let forms =
+        Forms::new(&setting.plants, &setting.places, &setting.trained, setting.window, ask.mounting_m);
+    let forms = forms.map_err(refused)?;
+    let stay = setting.plants[0].surface().actuators.iter().map(|actuator| actuator.at);
+    let at: Vec<Point> = stay.chain(setting.places.iter().copied()).collect();
+    let objective = ask.objective();
+    let search = Search { forms: &forms, at: &at, kept, apart: setting.apart(ask), objective };
+    let (each, starts) = searched(ask, &search, progress)?;
+    let best =
+        starts.iter().fold(&starts[0], |best, found| if found.score > best.score { found } else { best });
+    go_on(progress)?;
+    progress.stage("polish");
+    let grid: Vec<Point> = best.actuators[kept..].iter().map(|a| at[*a]).collect();
+    let (places, polished) = match setting.pitch {
+        Some(pitch) => polish(ask, setting).polished(grid, pitch).map_err(refused)?,
+        None => (grid, best.score),
+    };
+    let one_more = Chosen::new(&forms, best.actuators.clone()).with_each(objective);
+    let built = setting.built(&places);
+    let evaluated = Evaluated::of(ask, setting, &search, (&each, &places), progress)?;
+    progress.stage("methods");
+    let methods = by_method::each(&ask.methods, setting, &built, progress)?;
+    let restarts =
+        Restarts { reached: starts.iter().map(|found| found.score).collect(), best: best.score, polished };
+    let report = Report {
+        certificate: certificate(&search, ask.count, best),
+        one_more: more(&search, &one_more, best),
+        restarts,
+        methods,
+        ..evaluated.report(ask, setting, &built)
+    };
+    Ok((report, built, one_more[kept..].to_vec()))
+}
+
+/// The layouts of every number of actuators, and those of the requested number from each beginning, the greedy one first.
+fn searched(
+    ask: &Ask,
+    search: &Search<'_>,
+    progress: &mut dyn Progress,
+) -> Result<(Vec<Found>, Vec<Found>), TaskError> {
+    go_on(progress)?;
+    progress.stage("each number of actuators");
+    let places = search.at.len() - search.kept;
+    let up_to = ask.up_to.unwrap_or(2 * ask.count).max(ask.count).min(places);
+    let each = match search.each_number(up_to) {
+        // Distances may leave fewer places than there are points of the grid.
+        Err(PlacementError::Few { found, .. }) if found >= ask.count => search.each_number(found),
+        other => other,
+    };
+    let few = |error| match error {
+        PlacementError::Few { found, .. } => PlacementError::Few { expected: ask.count, found },
+        other => other,
+    };
+    let each = each.map_err(|error| refused(few(error)))?;
+    go_on(progress)?;
+    progress.stage("search");
+    let mut starts = vec![each[ask.count - 1].clone()];
+    // Where distances leave room for hardly any layout, random ones may not be found; the greedy one was.
+    starts.extend(search.restarts(ask.count, ask.restarts, ask.seed).unwrap_or_default());
+    Ok((each, starts))
+}
+
+fn polish<'a>(ask: &Ask, setting: &'a Setting) -> Polish<'a> {
+    Polish {
+        plants: &setting.plants,
+        aims: &setting.trained,
+        window: setting.window,
+        mounting: ask.mounting_m,
+        rules: &setting.rules,
+        apart: setting.apart(ask),
+        objective: ask.objective(),
+    }
+}
+
+/// What was made large, in words.
+fn objective_name(ask: &Ask) -> String {
+    match ask.objective() {
+        Objective::Mean => "mean contrast".into(),
+        Objective::Worst => "least contrast".into(),
+        Objective::Quantile(share) => {
+            format!("contrast that {:.0} % of the targets stay below", 100.0 * share)
+        }
+    }
+}
+
+/// What is known of how good a layout can be.
+fn certificate(search: &Search<'_>, count: usize, found: &Found) -> Best {
+    let layouts = search.layouts(count);
+    let best = search.best_of_all(count);
+    let certificate = match &best {
+        Some(best) if found.score >= best.score * (1.0 - 1e-4) => {
+            "the best of all layouts on the grid: every one was compared".to_owned()
+        }
+        Some(best) => format!(
+            "{:.1} % of the best of all layouts on the grid, every one of which was compared",
+            100.0 * found.score / best.score
+        ),
+        None => format!("none: {layouts:.1e} layouts are too many to compare, and no useful bound is known"),
+    };
+    Best { layouts, objective: best.map(|best| best.score), certificate }
+}
+
+/// The best place for one actuator more.
+fn more(search: &Search<'_>, scores: &[f64], found: &Found) -> Option<More> {
+    let free = (search.kept..search.at.len()).filter(|b| search.is_free(&found.actuators, *b));
+    let best = free.reduce(|best, b| if scores[b] > scores[best] { b } else { best })?;
+    Some(More { at_m: [search.at[best].x, search.at[best].y], objective: scores[best] })
+}
+
+/// Layouts evaluated on targets that they were not placed for.
+struct Evaluated {
+    before: Option<Vec<Reached>>,
+    after: Vec<Reached>,
+    random: Option<Random>,
+    each: Vec<Number>,
+    builds: Vec<Build>,
+}
+
+impl Evaluated {
+    fn of(
+        ask: &Ask,
+        setting: &Setting,
+        search: &Search<'_>,
+        (each, places): (&[Found], &[Point]),
+        progress: &mut dyn Progress,
+    ) -> Result<Self, TaskError> {
+        go_on(progress)?;
+        progress.stage("evaluation");
+        let (plants, aims, window) = (&setting.plants, &setting.tested, setting.window);
+        let all = |layouts: &[Vec<Point>]| reached_each(plants, layouts, aims, window).map_err(refused);
+        let at = |layout: &[usize]| layout[search.kept..].iter().map(|a| search.at[*a]).collect::<Vec<_>>();
+        // Distances may be such that only a search finds room.
+        let random = match search.random(ask.count, RANDOM, ask.seed ^ 0x5eed) {
+            Ok(random) => {
+                let random = all(&random.iter().map(|layout| at(layout)).collect::<Vec<_>>())?;
+                Some(Random::of(&random, aims))
+            }
+            Err(_) => None,
+        };
+        go_on(progress)?;
+        let numbers = all(&each.iter().map(|found| at(&found.actuators)).collect::<Vec<_>>())?;
+        let numbers = each.iter().zip(&numbers).map(|(found, reached)| Number {
+            actuators: found.actuators.len(),
+            objective: found.score,
+            mean_contrast: condensed(reached, aims, Objective::Mean),
+            worst_contrast: condensed(reached, aims, Objective::Worst),
+        });
+        let mut builds = Vec::new();
+        for error in ERRORS {
+            go_on(progress)?;
+            builds.push(Build::of(error, &all(&setting.perturbed(places, error, BUILDS, ask.seed))?, aims));
+        }
+        let after = all(&[places.to_vec()])?.remove(0);
+        let before = before(setting, aims)?;
+        Ok(Self { before, after, random, each: numbers.collect(), builds })
+    }
+
+    /// The report, as far as it is of the evaluation.
+    fn report(self, ask: &Ask, setting: &Setting, built: &Surface) -> Report {
+        let (before, after) = self.layouts(setting, built);
+        Report {
+            program: "unripple",
+            version: env!("CARGO_PKG_VERSION"),
+            command: "place",
+            surface: setting.surface.name.clone(),
+            count: ask.count,
+            kept: setting.plants[0]
+                .surface()
+                .actuators
+                .iter()
+                .map(|actuator| actuator.name.clone())
+                .collect(),
+            places: setting.places.len(),
+            pitch_m: setting.pitch,
+            objective: objective_name(ask),
+            window_s: setting.window,
+            window_why: setting.window_why.clone(),
+            placed_for: setting.trained.len(),
+            evaluated_on: setting.tested.len(),
+            held_out: setting.held_out,
+            before,
+            after,
+            random: self.random,
+            each_number: self.each,
+            mounting: self.builds,
+            notes: setting.notes(),
+            ..Report::default()
+        }
+    }
+
+    /// The layout that the surface has, if any, and the one that was found.
+    fn layouts(&self, setting: &Setting, built: &Surface) -> (Option<Layout>, Layout) {
+        let aims = &setting.tested;
+        let of = |reached: &Vec<Reached>| Layout::of(&setting.surface.actuators, reached, aims);
+        (self.before.as_ref().map(of), Layout::of(&built.actuators, &self.after, aims))
+    }
+}
+
+/// What the surface's own actuators achieve, without the loads of those that are taken away, as those that are placed are compared; `None`
+/// where these are of another kind.
+fn before(setting: &Setting, aims: &[Aim]) -> Result<Option<Vec<Reached>>, TaskError> {
+    let kind = &setting.kind;
+    let alike = |own: &Actuator| own.kind == kind.kind && own.contact_radius == kind.contact_radius;
+    if !setting.moved().all(alike) {
+        return Ok(None);
+    }
+    let own: Vec<Point> = setting.moved().map(|actuator| actuator.at).collect();
+    reached(&setting.plants, &own, aims, setting.window).map(Some).map_err(refused)
+}

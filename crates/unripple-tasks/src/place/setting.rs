@@ -1,0 +1,329 @@
+//! What a search for places works on: the surface without the actuators that are placed, the places, the targets.
+
+use super::refused::refused;
+use super::{Ask, cost};
+use crate::numbers::above_zero;
+use crate::window::{carries, conditions};
+use crate::{Place, Progress, TaskError, go_on, point};
+use std::collections::HashSet;
+use unripple::act::{Note, accuracy, chosen_window, less_accurate};
+use unripple::core::{Actuator, ActuatorKind, Patch, Point, Random, Responses, Surface};
+use unripple::physics::Transducer;
+use unripple_placement::{Aim, Plant, Rules, spread};
+
+/// Share of the shortest wavelength that is the default spacing of places: shapes change little between two of them, and the polish moves
+/// actuators further.
+const PITCH: f64 = 1.0 / 7.0;
+
+/// Targets on which layouts are evaluated, for each that they are placed for.
+pub(super) const TESTED: usize = 3;
+
+/// Largest number of actuators, and of targets, of a request. More are taken for a mistake.
+const MOST: usize = 1000;
+
+/// What a search works on.
+pub(super) struct Setting {
+    /// The surface as it is.
+    pub surface: Surface,
+    /// The models of the surface that the layouts are to be good on: with the actuators that stay alone.
+    pub plants: Vec<Plant>,
+    /// What an actuator to be placed is like.
+    pub kind: Actuator,
+    /// Where actuators may be.
+    pub rules: Rules,
+    /// Spacing of the grid of places, in m; `None` where places are listed.
+    pub pitch: Option<f64>,
+    /// The places to choose from.
+    pub places: Vec<Point>,
+    /// The targets that actuators are placed for.
+    pub trained: Vec<Aim>,
+    /// The targets on which layouts are evaluated.
+    pub tested: Vec<Aim>,
+    /// Whether these are others than those that actuators are placed for.
+    pub held_out: bool,
+    /// Window T, in s.
+    pub window: f64,
+    /// Reason for the default window.
+    pub window_why: Option<String>,
+}
+
+impl Setting {
+    /// What a request asks for, after a check of its numbers.
+    ///
+    /// # Errors
+    /// [`TaskError::Ask`] of numbers and names that make no sense; those of solving for modes.
+    pub fn of(ask: &Ask, progress: &mut dyn Progress) -> Result<Self, TaskError> {
+        let surface = ask.surface.load()?;
+        numbers(ask)?;
+        let kind = kind(ask, &surface)?;
+        let kept = Surface { actuators: kept(ask, &surface)?, ..surface.clone() };
+        let lambda_min = conditions(&surface).lambda_min;
+        let polygons =
+            |areas: &[Vec<Place>]| areas.iter().map(|area| area.iter().map(point).collect()).collect();
+        let rules = Rules {
+            from_rim: ask.rim_m.unwrap_or([0.0, f64::INFINITY]),
+            within: polygons(&ask.within_m),
+            keep_out: polygons(&ask.keep_out_m),
+        };
+        let (trained, tested) = targets(ask, &surface, lambda_min)?;
+        let held_out = ask.points_m.is_empty();
+        let pitch = ask.places_m.is_empty().then(|| ask.pitch_m.unwrap_or(PITCH * lambda_min));
+        let places = places(ask, &surface, &kind, &rules, pitch)?;
+        let window_s = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+        window_s.map_or(Ok(()), |window| carries(&conditions(&surface), window, "window_s"))?;
+        cost::announce(ask, &kept, places.len(), progress);
+        progress.stage("modes");
+        let plants = plants(ask, &kept, &kind)?;
+        go_on(progress)?;
+        let (window, window_why) = window(ask, &plants[0], &places)?;
+        Ok(Self {
+            surface,
+            plants,
+            kind,
+            rules,
+            pitch,
+            places,
+            trained,
+            tested,
+            held_out,
+            window,
+            window_why,
+        })
+    }
+
+    /// Least distance between two actuators, in m: by default that at which two of those placed would touch.
+    pub fn apart(&self, ask: &Ask) -> f64 {
+        let radius = match self.kind.kind {
+            ActuatorKind::Piezo { patch: Patch::Round { radius }, .. } => radius,
+            ActuatorKind::Piezo { patch: Patch::Rectangular { sides: [width, height], .. }, .. } => {
+                0.5 * width.hypot(height)
+            }
+            _ => self.kind.contact_radius,
+        };
+        ask.apart_m.unwrap_or(2.0 * radius)
+    }
+
+    /// What the search leaves out of its models, and what is less accurate than usual.
+    pub fn notes(&self) -> Vec<Note> {
+        let mut notes = Vec::new();
+        let error = self.plants[0].frequency_error();
+        notes.extend(less_accurate(error, accuracy(&self.surface).aim));
+        let there = Actuator { at: self.places[0], ..self.kind.clone() };
+        let loads =
+            Transducer::of(&there, &self.surface.outline).is_ok_and(|transducer| transducer.load.is_some());
+        if loads {
+            let text = "while places are compared, the actuators to be placed do not load the sheet: their masses, springs and electrical \
+                        damping count only in the results by method";
+            notes.push(Note { topic: "loads", text: text.into() });
+        }
+        if !self.held_out {
+            let text =
+                "layouts are evaluated on the targets that they were placed for, since these were given";
+            notes.push(Note { topic: "targets", text: text.into() });
+        }
+        notes
+    }
+
+    /// The surface's own actuators that do not stay.
+    pub fn moved(&self) -> impl Iterator<Item = &Actuator> {
+        let stay = &self.plants[0].surface().actuators;
+        self.surface.actuators.iter().filter(move |actuator| !stay.contains(actuator))
+    }
+
+    /// Random builds of a layout, with errors of its places of up to `error` (m) along each axis.
+    pub fn perturbed(&self, places: &[Point], error: f64, builds: usize, seed: u64) -> Vec<Vec<Point>> {
+        let mut random = Random::seeded(seed);
+        let mut off = |place: &Point| {
+            let moved =
+                Point::new(place.x + random.between(-error, error), place.y + random.between(-error, error));
+            // Where none can be, it is put where it was meant to be.
+            if self.plants[0].holds(moved) { moved } else { *place }
+        };
+        (0..builds).map(|_| places.iter().map(&mut off).collect()).collect()
+    }
+
+    /// The surface with the actuators that stay and others at `places`, which take the names of those taken away while these last.
+    pub fn built(&self, places: &[Point]) -> Surface {
+        let mut surface = self.plants[0].surface().clone();
+        let taken = self.moved().map(|actuator| actuator.name.clone());
+        let old: HashSet<&str> = self.surface.actuators.iter().map(|a| a.name.as_str()).collect();
+        let new = (1..).map(|i| format!("a{i}")).filter(|name| !old.contains(name.as_str()));
+        let names = taken.chain(new);
+        let named =
+            places.iter().zip(names).map(|(at, name)| Actuator { name, at: *at, ..self.kind.clone() });
+        surface.actuators.extend(named);
+        surface
+    }
+}
+
+/// Checks the numbers of a request that need no surface.
+fn numbers(ask: &Ask) -> Result<(), TaskError> {
+    let within = |field: &'static str, found: usize, least: usize| match (least..=MOST).contains(&found) {
+        true => Ok(()),
+        false => Err(TaskError::ask(field, format!("{least} to {MOST}"), found)),
+    };
+    within("count", ask.count, 1)?;
+    within("targets", ask.targets, 1)?;
+    within("restarts", ask.restarts, 0)?;
+    within("up_to", ask.up_to.unwrap_or(1), 1)?;
+    let share = |field: &'static str, found: f64, most: f64| match (0.0..=most).contains(&found) {
+        true => Ok(()),
+        false => Err(TaskError::ask(field, format!("a number from 0 to {most}"), found)),
+    };
+    let length = |field: &'static str, found: f64| match (0.0..=1.0).contains(&found) {
+        true => Ok(()),
+        false => Err(TaskError::ask(field, "a length from 0 to 1000 mm", format!("{} mm", 1e3 * found))),
+    };
+    share("share", ask.share, 1.0)?;
+    share("tension", ask.tension, 0.5)?;
+    // Beyond a metre, errors and distances are taken for mistakes of unit.
+    length("mounting_m", ask.mounting_m)?;
+    length("apart_m", ask.apart_m.unwrap_or(0.0))?;
+    ask.pitch_m.map_or(Ok(1.0), |pitch| above_zero(pitch, "pitch_m", "m"))?;
+    if let Some([least, most]) = ask.rim_m
+        && !(least >= 0.0 && most > least)
+    {
+        let found = format!("{} and {} mm", 1e3 * least, 1e3 * most);
+        return Err(TaskError::ask("rim_m", "two distances, the second one larger", found));
+    }
+    if !(ask.weights.is_empty() || ask.weights.len() == ask.points_m.len()) {
+        let expected = format!("{}, one for each of `points_m`", ask.points_m.len());
+        return Err(TaskError::ask("weights", expected, ask.weights.len()));
+    }
+    if let Some(weight) = ask.weights.iter().find(|weight| !(weight.is_finite() && **weight > 0.0)) {
+        return Err(TaskError::ask("weights", "numbers above 0", weight));
+    }
+    for (field, areas) in [
+        ("within_m", &ask.within_m),
+        ("keep_out_m", &ask.keep_out_m),
+        ("targets_within_m", &ask.targets_within_m),
+    ] {
+        if let Some(area) = areas.iter().find(|area| area.len() < 3) {
+            return Err(TaskError::ask(
+                field,
+                "polygons of at least 3 corners",
+                format!("{} corners", area.len()),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The actuators that stay.
+fn kept(ask: &Ask, surface: &Surface) -> Result<Vec<Actuator>, TaskError> {
+    ask.keep.iter().try_for_each(|name| named(surface, name, "keep").map(drop))?;
+    let stays = |actuator: &&Actuator| ask.keep_all || ask.keep.contains(&actuator.name);
+    Ok(surface.actuators.iter().filter(stays).cloned().collect())
+}
+
+fn named<'a>(surface: &'a Surface, name: &str, field: &'static str) -> Result<&'a Actuator, TaskError> {
+    surface.actuators.iter().find(|actuator| actuator.name == name).ok_or_else(|| {
+        let names: Vec<&str> = surface.actuators.iter().map(|actuator| actuator.name.as_str()).collect();
+        let names = if names.is_empty() {
+            "an actuator of the surface, which has none".into()
+        } else {
+            names.join(", ")
+        };
+        TaskError::ask(field, format!("one of {names}"), format!("`{name}`"))
+    })
+}
+
+/// What the actuators that are placed are like.
+fn kind(ask: &Ask, surface: &Surface) -> Result<Actuator, TaskError> {
+    if let Some(name) = &ask.like {
+        return named(surface, name, "like").cloned();
+    }
+    let first = surface.actuators.first().cloned();
+    first.ok_or_else(|| {
+        TaskError::ask("like", "a surface with an actuator, which those placed are like", "none")
+    })
+}
+
+/// The places to choose from, on a grid of some pitch (m) or listed.
+fn places(
+    ask: &Ask,
+    surface: &Surface,
+    kind: &Actuator,
+    rules: &Rules,
+    pitch: Option<f64>,
+) -> Result<Vec<Point>, TaskError> {
+    let outline = &surface.outline;
+    let mut places = match pitch {
+        Some(pitch) => rules.grid(outline, pitch).map_err(refused)?,
+        None => ask.places_m.iter().map(point).filter(|at| rules.allow(outline, *at)).collect(),
+    };
+    places.retain(|at| Transducer::of(&Actuator { at: *at, ..kind.clone() }, outline).is_ok());
+    if places.len() < ask.count {
+        let expected = format!("at least {}, one for each actuator", ask.count);
+        return Err(TaskError::ask("places_m, pitch_m, rim_m", expected, format!("{} places", places.len())));
+    }
+    Ok(places)
+}
+
+/// The targets to place for, and those on which layouts are evaluated.
+fn targets(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(Vec<Aim>, Vec<Aim>), TaskError> {
+    let outline = &surface.outline;
+    if !ask.points_m.is_empty() {
+        let weights = ask.weights.iter().copied().chain(std::iter::repeat(1.0));
+        let aims: Vec<Aim> =
+            ask.points_m.iter().map(point).zip(weights).map(|(at, weight)| Aim { at, weight }).collect();
+        if let Some(aim) = aims.iter().find(|aim| !outline.contains(aim.at)) {
+            return Err(TaskError::ask(
+                "points_m",
+                "points on the surface",
+                format!("{}, beyond its edge", aim.at),
+            ));
+        }
+        return Ok((aims.clone(), aims));
+    }
+    let within = ask.targets_within_m.iter().map(|area| area.iter().map(point).collect()).collect();
+    // Near a rim that is held, nothing can be in focus.
+    let from_rim = if ask.targets_within_m.is_empty() { lambda_min } else { 0.0 };
+    let rules = Rules { from_rim: [from_rim, f64::INFINITY], within, keep_out: Vec::new() };
+    let all = spread(outline, &rules, 0, (1 + TESTED) * ask.targets);
+    if all.len() < (1 + TESTED) * ask.targets {
+        let found =
+            "hardly any: the surface is small beside its shortest wavelength, or the areas lie beyond it";
+        return Err(TaskError::ask("points_m, targets_within_m", "room for targets on the surface", found));
+    }
+    let mut aims = all.into_iter().map(|at| Aim { at, weight: 1.0 });
+    let trained = aims.by_ref().take(ask.targets).collect();
+    Ok((trained, aims.collect()))
+}
+
+/// The models of the surface: as it is, and where an error of the tension is to be borne, with more and less of it too.
+fn plants(ask: &Ask, kept: &Surface, kind: &Actuator) -> Result<Vec<Plant>, TaskError> {
+    // A uniform error by three points: Gauss-Legendre, of degree five.
+    let points = [(-(0.6_f64.sqrt()), 5.0 / 18.0), (0.0, 4.0 / 9.0), (0.6_f64.sqrt(), 5.0 / 18.0)];
+    let all = if ask.tension == 0.0 || kept.sheet.tension == 0.0 { &points[1..2] } else { &points[..] };
+    let of = |(error, weight): &(f64, f64)| {
+        let mut surface = kept.clone();
+        surface.sheet.tension *= 1.0 + ask.tension * error;
+        let mut plant = Plant::new(surface, kind).map_err(refused)?;
+        plant.weight = *weight;
+        Ok(plant)
+    };
+    // The first one is where places are looked up.
+    let mut plants = all.iter().map(of).collect::<Result<Vec<_>, TaskError>>()?;
+    let middle = plants.len() / 2;
+    plants.swap(0, middle);
+    Ok(plants)
+}
+
+/// The window in s, and why, where it is not that of the request.
+fn window(ask: &Ask, plant: &Plant, places: &[Point]) -> Result<(f64, Option<String>), TaskError> {
+    let kept = plant.surface();
+    if let Some(window) = ask.window_s {
+        return Ok((window, None));
+    }
+    let mut spread = kept.clone();
+    let step = places.len() as f64 / ask.count as f64;
+    let evenly: Vec<Point> = (0..ask.count).map(|i| places[((i as f64 + 0.5) * step) as usize]).collect();
+    let named =
+        |(i, at): (usize, &Point)| Actuator { name: format!("place {i}"), at: *at, ..plant.kind().clone() };
+    spread.actuators.extend(evenly.iter().enumerate().map(named));
+    let responses = plant.responses(&evenly).map_err(refused)?;
+    let chosen = chosen_window(&spread, &Responses::Modal(responses));
+    carries(&conditions(kept), chosen.seconds, "window_s")?;
+    Ok((chosen.seconds, Some(chosen.why.clone())))
+}

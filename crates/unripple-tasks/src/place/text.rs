@@ -1,0 +1,144 @@
+//! The report of the task `place` as text.
+
+use super::Report;
+use super::placed::Layout;
+use std::fmt::Write;
+
+/// Rows of the table of numbers of actuators that are printed: all are in the JSON.
+const ROWS: usize = 12;
+
+/// The report as lines of text.
+pub(super) fn of(report: &Report) -> String {
+    let mut text = String::new();
+    let pitch = report.pitch_m.map_or(String::new(), |pitch| format!(", {:.2} mm apart", 1e3 * pitch));
+    let kept = match report.kept.as_slice() {
+        [] => String::new(),
+        kept => format!(", beside {} that stay", kept.len()),
+    };
+    let others = if report.held_out { " others" } else { "" };
+    let _ = writeln!(
+        text,
+        "{}: {} actuators placed{kept}, chosen among {} places{pitch}, for the {} of time reversal (window {:.1} ms) at {} targets; \
+         evaluated on {}{others}.\n",
+        report.surface,
+        report.count,
+        report.places,
+        report.objective,
+        1e3 * report.window_s,
+        report.placed_for,
+        report.evaluated_on,
+    );
+    for (actuator, number) in report.after.actuators.iter().zip(1..) {
+        let [x, y] = actuator.at_m.map(|x| 1e3 * x);
+        let end = if number % 4 == 0 || number == report.after.actuators.len() { "\n" } else { "    " };
+        let _ = write!(text, "{:<6} {x:7.2}, {y:7.2} mm{end}", actuator.name);
+    }
+    layouts(&mut text, report);
+    search(&mut text, report);
+    numbers(&mut text, report);
+    methods(&mut text, report);
+    for note in &report.notes {
+        let _ = writeln!(text, "\nnote ({}): {}", note.topic, note.text);
+    }
+    text
+}
+
+/// The layouts beside each other.
+fn layouts(text: &mut String, report: &Report) {
+    let reference =
+        report.random.as_ref().map_or(report.after.energy_for_peak, |random| random.energy_for_peak);
+    let _ = writeln!(text, "\ncontrast                  mean  median   worst  energy for the same peak");
+    let mut row = |name: &str, layout: &Layout| {
+        let _ = writeln!(
+            text,
+            "{name:<22} {:7.1} {:7.1} {:7.1}  {:.2}",
+            layout.mean_contrast,
+            layout.median_contrast,
+            layout.worst_contrast,
+            layout.energy_for_peak / reference
+        );
+    };
+    row("placed", &report.after);
+    report.before.iter().for_each(|before| row("as the file has them", before));
+    if let Some(random) = &report.random {
+        let _ = writeln!(
+            text,
+            "{:<22} {:7.1} {:>7} {:7.1}  1.00  (deviation of the mean {:.1})",
+            format!("random, {} layouts", random.layouts),
+            random.mean_contrast,
+            "",
+            random.worst_contrast,
+            random.deviation
+        );
+    }
+    for build in &report.mounting {
+        let name = format!("placed within {} mm", 1e3 * build.error_m);
+        let _ = writeln!(
+            text,
+            "{name:<22} {:7.1}                        (deviation of the mean {:.1}, {} builds)",
+            build.mean_contrast, build.deviation, build.builds
+        );
+    }
+    let [x, y] = report.after.worst_at_m.map(|x| 1e3 * x);
+    let _ = writeln!(text, "\nworst target of the placed: {x:.1}, {y:.1} mm");
+}
+
+/// What the search knows of itself.
+fn search(text: &mut String, report: &Report) {
+    let restarts = &report.restarts;
+    let least = restarts.reached.iter().copied().fold(f64::INFINITY, f64::min);
+    let _ = writeln!(
+        text,
+        "search: {} beginnings reached {least:.2} to {:.2} on the grid, {:.2} between its places; certificate: {}",
+        restarts.reached.len(),
+        restarts.best,
+        restarts.polished,
+        report.certificate.certificate
+    );
+    if let Some(more) = &report.one_more {
+        let [x, y] = more.at_m.map(|x| 1e3 * x);
+        let _ = writeln!(text, "one actuator more: best at {x:.1}, {y:.1} mm, {:.2}", more.objective);
+    }
+}
+
+/// The contrast of every number of actuators, or of some where there are many.
+fn numbers(text: &mut String, report: &Report) {
+    let all = &report.each_number;
+    let step = all.len().div_ceil(ROWS).max(1);
+    let _ = writeln!(text, "\nactuators  contrast: mean   worst");
+    for (i, number) in all.iter().enumerate() {
+        if (i + 1) % step == 0 || i == 0 || i + 1 == report.count || i + 1 == all.len() {
+            let _ = writeln!(
+                text,
+                "{:9} {:15.1} {:7.1}",
+                number.actuators, number.mean_contrast, number.worst_contrast
+            );
+        }
+    }
+}
+
+/// Results by method.
+fn methods(text: &mut String, report: &Report) {
+    if report.methods.is_empty() {
+        return;
+    }
+    let _ = writeln!(
+        text,
+        "\nmethod, with loads, means    contrast   felt contrast (dB)   felt level at the limit (dB)   energy for a peak"
+    );
+    for row in &report.methods {
+        for (when, means) in [("before", row.before.as_ref()), ("placed", Some(&row.after))] {
+            if let Some(means) = means {
+                let tenths = |figure: Option<f64>| figure.map_or("-".into(), |figure| format!("{figure:.1}"));
+                let energy = means.energy_for_peak.map_or("-".into(), |energy| format!("{energy:.3e}"));
+                let [contrast, felt, level] =
+                    [means.contrast, means.felt_contrast_db, means.felt_level_db].map(tenths);
+                let _ = writeln!(
+                    text,
+                    "{:<20} {when:<7} {contrast:>8} {felt:>20} {level:>30} {energy:>19}",
+                    row.method
+                );
+            }
+        }
+    }
+}
