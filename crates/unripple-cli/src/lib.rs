@@ -31,6 +31,7 @@ mod materials;
 mod modes;
 mod options;
 mod output;
+mod place;
 mod play;
 mod progress;
 mod reproduce;
@@ -102,6 +103,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Check(options) => check::run(options, common),
         Command::Design(options) => design::run(options, common),
         Command::Modes(options) => modes::run(options, common),
+        Command::Place(options) => place::run(options, common),
         Command::Respond(options) => respond::run(options, common),
         Command::Focus(options) => focus::run(options, common),
         Command::Compare(options) => compare::run(options, common),

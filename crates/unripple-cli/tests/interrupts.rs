@@ -26,7 +26,7 @@ struct Case {
     leaves: &'static [&'static str],
 }
 
-const CASES: [Case; 18] = [
+const CASES: [Case; 19] = [
     Case { arguments: "design film.toml", leaves: &[] },
     Case { arguments: "modes film.toml --max-hz 1400", leaves: &[] },
     Case { arguments: "check film.toml", leaves: &[] },
@@ -35,6 +35,7 @@ const CASES: [Case; 18] = [
     Case { arguments: "focus film.toml --at 62,90 -o out", leaves: &[] },
     Case { arguments: "focus film.toml --waveform 62,90,burst:300,5 -o made/here/out", leaves: &["made"] },
     Case { arguments: "compare hudin-2012 --at 62,90 -o out", leaves: &[] },
+    Case { arguments: "place hudin-2012 --rim-mm 6,12 -o out", leaves: &[] },
     Case { arguments: "field film.toml --drive drive.wav --frames 10 -o out", leaves: &[] },
     Case { arguments: "export lib -o out", leaves: &[] },
     Case { arguments: "export lib -o lib.sofa", leaves: &["lib.sofa"] },

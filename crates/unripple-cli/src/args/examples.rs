@@ -45,6 +45,15 @@ pub const COMPARE: &str = "Examples:
     unripple compare film.toml glass.toml --at 62,90 --method concentrate --method felt -o out
     unripple compare hudin-2012 --vary sheet.tension_n_per_m=200,300,400 --at 62,90 -o out";
 
+/// For `place`: near the rim, around a screen, one more.
+pub const PLACE: &str = "Examples:
+  Eight actuators, 6 to 12 mm from the rim:
+    unripple place hudin-2012 --rim-mm 6,12 -o placed
+  Four that bear errors of a millimetre, around a screen:
+    unripple place my-surface.toml --count 4 --mounting-mm 1 --screen 30,30,120,30,120,120,30,120
+  One more beside those of the file:
+    unripple place my-surface.toml --count 1 --keep-all";
+
 /// For `field`: the drive that `focus` wrote.
 pub const FIELD: &str = "Examples:
   unripple field hudin-2012 --drive out/drive.wav

@@ -4,6 +4,12 @@
 pub const EVERY: &str = "For every command";
 /// Surfaces that are compared.
 pub const SURFACES: &str = "Surfaces";
+/// Actuators that are placed, and those that stay.
+pub const ACTUATORS: &str = "Actuators";
+/// Where actuators may be.
+pub const PLACES: &str = "Places";
+/// What a search makes large, and how long it tries.
+pub const SEARCH: &str = "Search";
 /// Targets of a focus, or places that are evaluated.
 pub const TARGETS: &str = "Targets";
 /// How strong a drive is.

@@ -7,6 +7,7 @@ mod export;
 mod fit;
 mod heading;
 mod names;
+mod place;
 mod play;
 mod rerun;
 mod shell;
@@ -18,6 +19,7 @@ pub use drift::DriftOptions;
 pub use export::ExportOptions;
 pub use fit::FitOptions;
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
+pub use place::PlaceOptions;
 pub use play::{DoctorOptions, PlayOptions};
 pub use rerun::RerunOptions;
 pub use shell::{CompletionsOptions, ManOptions};
@@ -75,6 +77,8 @@ pub enum Command {
     Design(DesignOptions),
     /// Compute the modes: natural frequencies and decay times.
     Modes(ModesOptions),
+    /// Find where actuators should be so that time reversal has the most contrast, and how many are enough.
+    Place(PlaceOptions),
     /// Compute impulse responses from the model, as a library.
     Respond(RespondOptions),
     /// Compute a drive that focuses on points or shapes, simulate it, and write a report and pictures.

@@ -29,6 +29,30 @@ impl DeviceName {
     }
 }
 
+/// What actuators are placed for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum ObjectiveName {
+    /// The mean of the contrasts.
+    #[default]
+    Mean,
+    /// The least contrast.
+    Worst,
+    /// The contrast that a share of the targets stays below.
+    Quantile,
+}
+
+impl ObjectiveName {
+    /// The objective that the name stands for.
+    pub fn objective(self) -> unripple_tasks::place::ObjectiveAsk {
+        use unripple_tasks::place::ObjectiveAsk;
+        match self {
+            Self::Mean => ObjectiveAsk::Mean,
+            Self::Worst => ObjectiveAsk::Worst,
+            Self::Quantile => ObjectiveAsk::Quantile,
+        }
+    }
+}
+
 /// How a point is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum WayName {

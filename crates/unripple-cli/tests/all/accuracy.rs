@@ -50,6 +50,7 @@ fn a_coarser_accuracy_reaches_every_command() {
         vec!["respond", &file, "--grid-mm", "40", "-o", &library],
         vec!["focus", &library, "--at", "80,40", "-o", &out, "--no-figures"],
         vec!["compare", &file, "--at", "60,50", "--method", "inverse", "-o", &out],
+        vec!["place", &file, "--at", "80,40", "--at", "45,70", "--count", "2", "--rim-mm", "8,16"],
     ] {
         let mut arguments = arguments;
         arguments.extend(["--accuracy", "0.05"]);

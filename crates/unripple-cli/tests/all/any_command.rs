@@ -58,6 +58,8 @@ enum Value {
     Whole(u64, u64),
     /// A place on the surface, now and then beside it.
     Place,
+    /// A polygon of three such places.
+    Area,
     /// A place with gain and rate.
     Target,
     Waveform,
@@ -66,7 +68,7 @@ enum Value {
     One(&'static [&'static str]),
 }
 
-use Value::{Nothing, Number, One, Path, Place, Shape, Target, Waveform, Whole};
+use Value::{Area, Nothing, Number, One, Path, Place, Shape, Target, Waveform, Whole};
 
 const METHODS: &[&str] = &["time-reversal", "one-bit", "inverse", "concentrate", "limited", "robust", "felt"];
 
@@ -102,6 +104,26 @@ const FOCUS: &[(&str, Value)] = &[
     ("--on", One(&["surface.toml", "hudin-2012", "lib"])),
     ("--judge-hz", Number(50.0, 5e3)),
     ("--between", One(&["kernel", "nearest", "linear"])),
+];
+
+const PLACE: &[(&str, Value)] = &[
+    ("--keep-all", Nothing),
+    ("--rim-mm", One(&["1,8", "2,30", "8,1", "0,0", "nan,1", "5"])),
+    ("--keep-out", Area),
+    ("--place", Place),
+    ("--grid-mm", Number(2.0, 50.0)),
+    ("--apart-mm", Number(0.1, 100.0)),
+    ("--at", Place),
+    ("--screen", Area),
+    ("--targets", Whole(1, 30)),
+    ("--objective", One(&["mean", "worst", "quantile"])),
+    ("--mounting-mm", Number(0.01, 5.0)),
+    ("--tension-percent", Number(0.1, 10.0)),
+    ("--window-ms", Number(0.5, 60.0)),
+    ("--restarts", Whole(0, 5)),
+    ("--up-to", Whole(1, 8)),
+    ("--method", One(&["time-reversal", "one-bit", "inverse", "concentrate"])),
+    ("-o", One(&["placed", "out"])),
 ];
 
 const KINDS: &[Kind] = &[
@@ -197,6 +219,7 @@ const KINDS: &[Kind] = &[
         perhaps: &[("--within-percent", Number(1.0, 10.0)), ("--changed-percent", Number(0.1, 10.0))],
     },
     Kind { words: "doctor surface.toml --tuio 0", always: &[], perhaps: &[] },
+    Kind { words: "place surface.toml", always: &[("--count", Whole(1, 4))], perhaps: PLACE },
 ];
 
 /// Indices into [`KINDS`] of what others read the results of: a focus and a library.
@@ -245,6 +268,7 @@ impl Words<'_> {
             Number(low, high) => self.number(low, high),
             Whole(low, high) => self.whole(low, high),
             Place => self.place(),
+            Area => format!("{},{},{}", self.place(), self.place(), self.place()),
             Target => format!("{},{},{}", self.place(), self.number(0.1, 3.0), self.number(1.0, 100.0)),
             Waveform => {
                 let what = match pick(self.random, &[0, 1, 2, 3]) {

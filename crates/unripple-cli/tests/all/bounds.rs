@@ -62,6 +62,11 @@ fn numbers_beyond_all_memory_are_refused_at_once() {
             "calibrate FILM --device tape --tape @tape --grid-mm 0.3 -o @out",
             "--tape: expected at most 100000 recordings, found",
         ),
+        ("place FILM --count 1000000000 -o @out", "--count: expected 1 to 1000, found 1000000000"),
+        (
+            "place FILM --grid-mm 0.001 -o @out",
+            "cells of the grid of places: expected at most 4000000, found",
+        ),
         (
             "reproduce --placements 1000000000 -o @out",
             "--placements: expected at most 10000, found 1000000000",

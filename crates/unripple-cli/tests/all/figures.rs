@@ -59,7 +59,7 @@ fn figures_are_as_wide_as_columns_of_a_page() {
             );
         }
     }
-    for command in ["focus", "compare"] {
+    for command in ["focus", "compare", "place"] {
         let refusal = refused(&[command, &file, "--at", "62,90", "--columns", "3", "-o", &out], 2);
         assert!(refusal.contains("--columns: expected 1 or 2, found 3"), "{refusal}");
     }

@@ -30,6 +30,7 @@ mod main_job;
 mod memory;
 mod no_figures;
 mod ownership;
+mod place;
 mod progress;
 #[path = "../../../unripple-core/tests/shared/python.rs"]
 mod python;

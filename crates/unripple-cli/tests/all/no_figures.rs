@@ -43,6 +43,7 @@ fn a_folder_without_figures_has_its_report() {
         ("field", vec!["field", &file, "--drive", &drive, "--at", "62,90", "--frames", "2"]),
         ("compare", vec!["compare", &file, "--at", "62,90", "--window-ms", "20"]),
         ("surfaces", vec!["compare", &file, &file, "--at", "62,90", "--window-ms", "20"]),
+        ("place", vec!["place", &file, "--at", "62,90", "--count", "2", "--rim-mm", "8,20"]),
     ] {
         let out = scratch.join(name);
         json(&[&arguments[..], &["--no-figures", "-o", &out]].concat());

@@ -79,6 +79,7 @@ fn notes_and_libraries_in_an_output_folder_survive() {
         &["will not write", "notes.txt", "lib"],
     );
     kept(&scratch, &["compare", &film, "--at", "62,90", "-o", &out], 1, &["notes.txt"]);
+    kept(&scratch, &["place", &film, "--at", "62,90", "--count", "1", "-o", &out], 1, &["notes.txt"]);
     kept(&scratch, &["reproduce", "-o", &out], 1, &["notes.txt"]);
     kept(&scratch, &["export", &library, "-o", &out], 1, &["notes.txt"]);
     // A run inside an older run's folder makes that hold more than it wrote.

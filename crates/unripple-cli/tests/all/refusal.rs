@@ -51,7 +51,7 @@ fn files_with_faults_are_refused_with_their_place() {
 fn rates_set_for_a_run_are_refused_as_those_of_a_file() {
     let scratch = Scratch::new("set-rates");
     let out = scratch.join("out");
-    for command in [vec!["check"], vec!["focus", "--at", "62,90", "-o", &out]] {
+    for command in [vec!["check"], vec!["focus", "--at", "62,90", "-o", &out], vec!["place", "-o", &out]] {
         let set = ["hudin-2012", "--set", "drive.sample_rate_hz=44100.5"];
         let errors = refused(&[&command[..], &set].concat(), 2);
         assert!(
@@ -70,6 +70,7 @@ fn a_band_without_modes_is_refused_by_name() {
     for command in [
         vec!["focus", "--at", "62,90", "-o", &out],
         vec!["compare", "--at", "62,90", "-o", &out],
+        vec!["place", "--at", "62,90", "-o", &out],
         vec!["respond", "--grid-mm", "30", "-o", &out],
         vec!["calibrate", "--grid-mm", "30", "-o", &out],
     ] {

@@ -87,11 +87,12 @@ fn run_in(folder: &Path, threads: &str, arguments: &[&str]) -> Value {
 
 /// Commands that compute, as typed in a folder with film.toml, tone.wav, mark.svg, drive.wav and the library `lib`; OUT stands for where
 /// results go.
-const COMMANDS: [&str; 21] = [
+const COMMANDS: [&str; 22] = [
     "check film.toml",
     "design film.toml",
     "modes film.toml --max-hz 600 --accuracy 1e-5",
     "modes film.toml --set sheet.tension_n_per_m=150",
+    "place film.toml --count 2 --rim-mm 10,25 --keep a2 --mounting-mm 1 --restarts 3 -o OUT",
     "focus film.toml --at 62,90 -o OUT",
     "focus film.toml --at 62,90 --at 40,40,-0.5 --method concentrate --window-ms 25 --on film.toml --judge-hz 900 -o OUT",
     "focus film.toml --at 62,90 --method robust --bear-tension-percent 1 -o OUT",
@@ -174,10 +175,11 @@ fn runs_are_repeated_to_the_last_bit() {
                 "{typed} on {threads} threads"
             );
             let results = |folder: &Scratch, out: &str| {
-                ["/drive.wav", "/responses", ".wav"].map(|what| written(folder, &format!("{out}{what}")))
+                ["/drive.wav", "/responses", "/surface.toml", ".wav"]
+                    .map(|what| written(folder, &format!("{out}{what}")))
             };
             let (before, after) = (results(&scratch, &format!("out{i}")), results(&elsewhere, &out));
-            assert!(before == after, "the drive or library of {typed} on {threads} threads");
+            assert!(before == after, "the drive, library or surface of {typed} on {threads} threads");
         }
     }
 }

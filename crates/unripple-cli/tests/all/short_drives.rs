@@ -15,6 +15,7 @@ fn what_is_shorter_than_a_period_of_the_bands_top_is_refused() {
         (&["focus", "hudin-2012", "--at=62,90", "--window-ms=0.33", "-o", &out], "--window-ms"),
         (&["focus", "hudin-2012", stroke[0], stroke[1], "--window-ms=0.02", "-o", &out], "--window-ms"),
         (&["compare", "hudin-2012", "--at=62,90", "--window-ms=0.02", "-o", &out], "--window-ms"),
+        (&["place", "hudin-2012", "--rim-mm=6,12", "--window-ms=0.02", "-o", &out], "--window-ms"),
         (&["respond", "hudin-2012", "--grid-mm=30", "--length-ms=0.001", "-o", &out], "--length-ms"),
         (&["respond", "hudin-2012", "--grid-mm=30", "--length-ms=0.04", "-o", &out], "--length-ms"),
     ] {

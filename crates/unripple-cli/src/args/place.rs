@@ -1,0 +1,90 @@
+//! Options of `unripple place`.
+
+use super::names::{MethodName, ObjectiveName};
+use super::{examples, heading};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Options of `place`.
+#[derive(Debug, Args)]
+#[command(after_help = examples::PLACE)]
+pub struct PlaceOptions {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: String,
+    /// Number of actuators to place.
+    #[arg(long, value_name = "N", default_value_t = 8, help_heading = heading::ACTUATORS)]
+    pub count: usize,
+    /// Name of an actuator of the surface that stays where it is, beside those that are placed. Repeatable; all others are taken away.
+    #[arg(long, value_name = "NAME", help_heading = heading::ACTUATORS)]
+    pub keep: Vec<String>,
+    /// Keep all actuators of the surface.
+    #[arg(long, conflicts_with = "keep", help_heading = heading::ACTUATORS)]
+    pub keep_all: bool,
+    /// Name of an actuator of the surface that those to be placed are like; by default its first one.
+    #[arg(long, value_name = "NAME", help_heading = heading::ACTUATORS)]
+    pub like: Option<String>,
+    /// Least and greatest distance of places from the rim, in mm; by default anywhere.
+    #[arg(long, value_name = "LEAST,MOST", help_heading = heading::PLACES)]
+    pub rim_mm: Option<String>,
+    /// A polygon in which places must lie, as its corners in mm. Repeatable: then in any of them.
+    #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::PLACES)]
+    pub within: Vec<String>,
+    /// A polygon in which no place may lie, as its corners in mm. Repeatable.
+    #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::PLACES)]
+    pub keep_out: Vec<String>,
+    /// A place to choose from, in mm, instead of those of a grid. Repeatable.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::PLACES)]
+    pub place: Vec<String>,
+    /// Spacing of the grid of places to choose from, in mm; by default a seventh of the shortest wavelength.
+    #[arg(long, value_name = "P", allow_negative_numbers = true, help_heading = heading::PLACES)]
+    pub grid_mm: Option<f64>,
+    /// Least distance between any two actuators, in mm; by default that at which two of those placed would touch.
+    #[arg(long, value_name = "D", allow_negative_numbers = true, help_heading = heading::PLACES)]
+    pub apart_mm: Option<f64>,
+    /// A target in mm, with an optional weight; by default targets are spread evenly over the surface. Repeatable.
+    #[arg(long, value_name = "X,Y[,WEIGHT]", allow_hyphen_values = true, help_heading = heading::TARGETS)]
+    pub at: Vec<String>,
+    /// A polygon, such as the screen, in which targets must lie, as its corners in mm; by default anywhere at least one shortest wavelength
+    /// from the rim. Repeatable: then in any of them.
+    #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::TARGETS)]
+    pub screen: Vec<String>,
+    /// Number of targets to place for, if none are given; layouts are evaluated on three times as many others.
+    #[arg(long, value_name = "N", default_value_t = 20, help_heading = heading::TARGETS)]
+    pub targets: usize,
+    /// What is made large: a figure of the contrasts of time reversal at all targets.
+    #[arg(long, value_enum, default_value_t, help_heading = heading::SEARCH)]
+    pub objective: ObjectiveName,
+    /// For the objective `quantile`: share of the targets that may be worse, in per cent.
+    #[arg(long, value_name = "PERCENT", default_value_t = 10.0, allow_negative_numbers = true, help_heading = heading::SEARCH)]
+    pub share_percent: f64,
+    /// Error of the places along each axis, in mm, up to which the layout is to be good.
+    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true, help_heading = heading::SEARCH)]
+    pub mounting_mm: f64,
+    /// Error of the tension, up and down, in per cent, up to which the layout is to be good.
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true, help_heading = heading::SEARCH)]
+    pub tension_percent: f64,
+    /// Window T in ms; by default the one that `design` recommends for evenly spread actuators.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TIME)]
+    pub window_ms: Option<f64>,
+    /// Number of random layouts that the search begins from, beside the greedy one.
+    #[arg(long, value_name = "N", default_value_t = 10, help_heading = heading::SEARCH)]
+    pub restarts: usize,
+    /// Seed of the random layouts.
+    #[arg(long, value_name = "SEED", default_value_t = 1, help_heading = heading::SEARCH)]
+    pub seed: u64,
+    /// Largest number of actuators in the table of contrast against their number; by default twice --count.
+    #[arg(long, value_name = "N", help_heading = heading::SEARCH)]
+    pub up_to: Option<usize>,
+    /// Method of focusing whose drives are evaluated before and after. Repeatable.
+    #[arg(long, value_enum, help_heading = heading::METHOD)]
+    pub method: Vec<MethodName>,
+    /// Write no pictures.
+    #[arg(long, help_heading = heading::RESULTS)]
+    pub no_figures: bool,
+    /// Width of the pictures, in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default it depends on the picture.
+    #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
+    pub columns: Option<usize>,
+    /// Folder for the surface with the actuators in their places, report and pictures; without it only the report is printed.
+    #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
+    pub output: Option<PathBuf>,
+}
