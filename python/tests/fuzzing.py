@@ -87,6 +87,9 @@ class Values:
         }
         if name in known:
             return self.random.choice(known[name])
+        if name.startswith(("within", "keep_out", "targets_within")):
+            corners = [(10, 10), (140, 10), place]
+            return self.random.choice([corners, [corners], np.array(corners), "10,10,140,10,75,140"])
         if name.endswith("_mm") or name in ("targets", "at", "finger", "silent", "at_m", "points_m"):
             return self.random.choice([[place], place, [place, (40, 50)], np.array([place])])
         return self.random.choice([1, 0.5, 20, 100.0, True, "kernel", 3])

@@ -48,6 +48,7 @@ _LONG = {
     "respond": 'ur.Surface("hudin-2012").respond("out", grid_mm=3, progress=told)',
     "calibrate": 'ur.Surface("hudin-2012", band_hz=[0, 500]).calibrate("out", grid_mm=5, unknowns=1, progress=told)',
     "compare": 'ur.Surface("hudin-2012").compare([(62, 90), (40, 50)], output="out", progress=told)',
+    "place": 'ur.Surface("hudin-2012").place(count=100, rim_mm=(6, 12), restarts=1000, output="out", progress=told)',
     "field": 'ur.Surface("hudin-2012").field(ur.Drive(np.ones((8, 20 * 48000)), rate_hz=48000), progress=told)',
 }
 

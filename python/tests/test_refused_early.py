@@ -61,6 +61,37 @@ def test_targets(fresh: ur.Surface, targets: Any) -> None:
     _refused(lambda progress: fresh.compare(targets, progress=progress))
 
 
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"count": 0},
+        {"keep": "a9"},
+        {"keep": "a1", "keep_all": True},
+        {"like": "a9"},
+        {"rim_mm": (12, 6)},
+        {"within": [(0, 0), (150, 0)]},
+        {"keep_out_m": [(0, 0), (0.15, 0)]},
+        {"grid_mm": 0},
+        {"apart_mm": -1},
+        {"at": [_BEYOND]},
+        {"at": [(62, 90, 0)]},
+        {"screen": [(200, 0), (300, 0), (300, 100)]},
+        {"targets": 0},
+        {"objective": "best"},
+        {"share_percent": 200},
+        {"mounting_mm": -1},
+        {"tension_percent": 60},
+        {"window_ms": -1},
+        {"window_ms": 0.03},
+        {"columns": 3},
+        {"no_such_option": 1},
+    ],
+    ids=lambda options: ", ".join(options),
+)
+def test_places(fresh: ur.Surface, options: dict[str, Any]) -> None:
+    _refused(lambda progress: fresh.place(**options, progress=progress))
+
+
 @pytest.mark.parametrize("options", [{"window_ms": -1}, {"window_ms": 0.03}, {"judge_hz": 1}])
 def test_a_comparison(fresh: ur.Surface, options: dict[str, Any]) -> None:
     _refused(lambda progress: fresh.compare([(62, 90)], **options, progress=progress))

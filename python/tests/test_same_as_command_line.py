@@ -46,6 +46,51 @@ CASES: dict[str, tuple[list[str], Callable[[], ur.Report], Before | None]] = {
     "check": (["check", "glass-plate"], lambda: ur.check("glass-plate"), None),
     "design": (["design", *_FILM], lambda: film().design(), None),
     "modes": (["modes", *_FILM, "--max-hz", "300"], lambda: film().modes(max_hz=300), None),
+    "place": (
+        ["place", *_FILM, "--count", "2", "--keep", "a2", "--keep", "a5", "--like", "a3", "--rim-mm", "6.1,12.3"]
+        + ["--keep-out", "100.1,0,150,0,150,50.3", "--keep-out", "0,140,9.7,140,0,150", "--grid-mm", "4.9"]
+        + ["--apart-mm", "10.7", "--at", "62,90.1", "--at", "40.3,50,2.7", "--mounting-mm", "0.7"]
+        + ["--tension-percent", "0.9", "--window-ms", "20.3", "--restarts", "2", "--seed", "7", "--up-to", "3"]
+        + ["--objective", "quantile", "--share-percent", "30.7", "--method", "one-bit", "--no-figures", "-o", "out"],
+        lambda: film().place(
+            count=2,
+            keep=["a2", "a5"],
+            like="a3",
+            rim_mm=(6.1, 12.3),
+            keep_out=[[(100.1, 0), (150, 0), (150, 50.3)], [(0, 140), (9.7, 140), (0, 150)]],
+            grid_mm=4.9,
+            apart_mm=10.7,
+            at=[(62, 90.1), (40.3, 50, 2.7)],
+            mounting_mm=0.7,
+            tension_percent=0.9,
+            window_ms=20.3,
+            restarts=2,
+            seed=7,
+            up_to=3,
+            objective="quantile",
+            share_percent=30.7,
+            method=["one-bit"],
+            no_figures=True,
+            output="out",
+        ),
+        None,
+    ),
+    "listed places": (
+        ["place", *_FILM, "--count", "2", "--keep-all", "--place", "10.1,20", "--place", "75,12.3", "--place", "140,75.7"]
+        + ["--place", "12,130", "--within", "0,0,150,0,150,150,0,150.1", "--screen", "40.1,40,110,40,110,110"]
+        + ["--targets", "4", "--window-ms", "20", "--restarts", "1"],
+        lambda: film().place(
+            count=2,
+            keep_all=True,
+            place=[(10.1, 20), (75, 12.3), (140, 75.7), (12, 130)],
+            within=[(0, 0), (150, 0), (150, 150), (0, 150.1)],
+            screen="40.1,40,110,40,110,110",
+            targets=4,
+            window_ms=20,
+            restarts=1,
+        ),
+        None,
+    ),
     "materials": (["materials", "glass"], lambda: ur.materials("glass"), None),
     "points": (
         ["focus", *_FILM, "--at", "40.1,50.3", "--at", "100,90,0.7", "--method", "concentrate", "--peak-um", "1.3"]
@@ -170,7 +215,7 @@ def test_the_report_is_the_same(
     assert asked[0] == asked[1]
 
 
-@pytest.mark.parametrize("name", ["points", "waveform", "respond"])
+@pytest.mark.parametrize("name", ["points", "waveform", "respond", "place"])
 def test_files_are_the_same_byte_for_byte(
     name: str, program: str, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

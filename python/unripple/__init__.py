@@ -24,7 +24,7 @@ from unripple._progress import set_progress, set_threads
 from unripple._report import Report
 from unripple._responses import Responses
 from unripple._surface import Surface
-from unripple._tasks import check, compare, design, doctor, drift, modes, play, reproduce, rerun, run
+from unripple._tasks import check, compare, design, doctor, drift, modes, place, play, reproduce, rerun, run
 from unripple._view import View
 from unripple._virtual import VirtualSurface
 
@@ -69,6 +69,7 @@ __all__ = [
     "materials",
     "modes",
     "open",
+    "place",
     "play",
     "reproduce",
     "rerun",

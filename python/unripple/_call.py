@@ -11,7 +11,7 @@ from unripple._errors import OptionError, UnrippleError
 from unripple._progress import Telling, chosen_threads
 from unripple._report import Report
 from unripple._typed import typed
-from unripple._values import NOTHING
+from unripple._values import NOTHING, Fields
 
 _Done = TypeVar("_Done")
 
@@ -25,7 +25,7 @@ _BESIDE = {
 }
 
 #: Options that exclude each other.
-_APART = {"calibrate": (("figure", "check_levels"),)}
+_APART = {"calibrate": (("figure", "check_levels"),), "place": (("keep", "keep_all"),)}
 
 #: Fields without which there is nothing to do, by command, with the option that sets them.
 _NEEDED = {"stroke": {"path": "path", "speed_m_s": "speed_mm_s"}, "waveform": {"waveforms": "waveform"}}
@@ -55,7 +55,7 @@ class Call:
             if name in given and other not in given:
                 raise OptionError(f"{self.command}: expected {other} beside {name}, found none")
         for name, other in _APART.get(self.command, ()):
-            if given.get(name) and given.get(other):
+            if self.ask.get(name) and self.ask.get(other):
                 raise OptionError(f"{self.command}: expected one of {name} and {other}, found both")
         for field, name in _NEEDED.get(self.command, {}).items():
             if field not in self.set_by:
@@ -98,7 +98,10 @@ class Call:
         if option is None:
             raise _options.unknown(self.command, name, _options.names(self.command))
         found = option.value(name, value)
-        if found is not NOTHING:
+        if isinstance(found, Fields):
+            for field, item in found.items():
+                self._put(name, field, item)
+        elif found is not NOTHING:
             self._put(name, option.field, found)
 
     def _put(self, name: str, field: str, value: Any) -> None:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 #: Tables of reports that stand for the whole, the first that is there.
 _TABLES = (
+    "each_number",
     "targets",
     "methods",
     "surfaces",

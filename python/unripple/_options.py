@@ -60,6 +60,11 @@ def _places(name: str, *more: str) -> tuple[Option, ...]:
     return Option(name, field, _values.places), Option(f"{more[0]}_mm", field, _values.places)
 
 
+def _polygons(name: str, more: str) -> tuple[Option, ...]:
+    """Polygons with corners in mm: as the command line calls them, and as their field with another unit."""
+    return Option(name, f"{more}_m", _values.polygons), Option(f"{more}_mm", f"{more}_m", _values.polygons)
+
+
 def _wires(name: str, value: object) -> list[list[str]]:
     """Channels by the names of what is connected to them: a mapping, or texts NAME=CHANNEL."""
     if isinstance(value, Mapping):
@@ -144,6 +149,27 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
     "devices": _same(text, "server"),
     "design": (),
     "modes": (Option("max_hz", "top_hz", number), *_same(number, "accuracy")),
+    "place": (
+        *_same(count, "count", "targets", "restarts", "seed", "up_to"),
+        *_same(_values.texts, "keep"),
+        *_same(flag, "keep_all"),
+        *_same(text, "like", "objective"),
+        Option("rim_mm", "rim_m", _values.distances),
+        *_polygons("within", "within"),
+        *_polygons("keep_out", "keep_out"),
+        *_polygons("screen", "targets_within"),
+        *_places("place", "places"),
+        Option("grid_mm", "pitch_m", milli),
+        Option("apart_mm", "apart_m", milli),
+        Option("at", "points_m", _targets.weighted),
+        Option("points_mm", "points_m", _targets.weighted),
+        Option("share_percent", "share", percent),
+        Option("mounting_mm", "mounting_m", milli),
+        Option("tension_percent", "tension", percent),
+        *_WINDOW,
+        Option("method", "methods", _methods),
+        *_FIGURES,
+    ),
     "respond": (
         Option("grid_mm", "pitch_m", milli),
         Option("length_ms", "length_s", milli),
@@ -256,7 +282,10 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
 }
 
 #: Fields in SI units that are lists of places, which are given as arrays too.
-_PLACES_M = ("points_m", "fingers_m", "silent_m", "bear_fingers_m")
+_PLACES_M = ("points_m", "fingers_m", "silent_m", "bear_fingers_m", "places_m")
+
+#: Fields in SI units that are lists of polygons.
+_POLYGONS_M = ("within_m", "keep_out_m", "targets_within_m")
 
 #: Options of every call, which are no part of an ask.
 OF_CALLS = ("progress", "threads")
@@ -278,9 +307,15 @@ def by_name(command: str) -> Mapping[str, Option]:
     """All options of a command by their names: those of the command line, and its fields in SI units."""
     found = {option.name: option for option in OPTIONS.get(command, ())}
     for name, field in fields(command).items():
-        value = _values.places_m if name in _PLACES_M else _values.plain
-        found.setdefault(name, Option(name, field, value))
+        found.setdefault(name, Option(name, field, _in_si(name)))
     return found
+
+
+def _in_si(name: str) -> Callable[[str, object], Any]:
+    """Return how the value of a field in SI units is read."""
+    if name in _PLACES_M:
+        return _values.places_m
+    return _values.polygons_m if name in _POLYGONS_M else _values.plain
 
 
 def names(command: str) -> list[str]:

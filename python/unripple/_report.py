@@ -202,7 +202,7 @@ class Report(Part):
         key
             What becomes the table: a key, or keys joined by dots (``"paper.table1"``). A list of objects becomes a row each, a list of
             numbers a column, an object one row. By default the report's own table, such as ``targets`` of a focus, ``methods`` of a
-            comparison, ``dispersion`` of a design, or one row for each mode.
+            comparison, ``each_number`` of placed actuators, ``dispersion`` of a design, or one row for each mode.
         library
             ``"pandas"`` or ``"polars"``; by default the one that is installed, pandas if both are.
 

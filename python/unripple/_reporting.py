@@ -79,6 +79,61 @@ class Reporting:
         """
         return self._report("modes", options)
 
+    def place(self, **options: Unpack[_types.PlaceOptions]) -> Report:
+        """Find where actuators should be so that time reversal has the most contrast, and how many are enough.
+
+        Parameters
+        ----------
+        count, like
+            How many to place, 8 by default, and the name of an actuator that they are like; by default the surface's first one.
+        keep, keep_all
+            Names of the surface's actuators that stay where they are, or whether all do; by default all are taken away.
+        rim_mm, within, keep_out
+            Where places may be: between two distances from the rim, in one of some polygons, and in none of others. A polygon is a sequence
+            of corners ``(x, y)`` in mm; one alone stands for a list of one.
+        grid_mm, place
+            Spacing of the grid of places to choose from, by default a seventh of the shortest wavelength; or the places themselves, in mm.
+        apart_mm
+            Least distance between any two actuators; by default that at which two of those placed would touch.
+        at, screen, targets
+            What to place for: targets ``(x, y)`` or ``(x, y, weight)`` in mm, or polygons in which so many targets are spread, 20 by default;
+            without either anywhere at least one shortest wavelength from the rim.
+        objective, share_percent
+            What is made large: the ``"mean"`` of the contrasts at all targets (the default), the ``"worst"`` one, or as a ``"quantile"`` that
+            which a share of the targets, 10 % by default, stays below.
+        mounting_mm, tension_percent
+            Errors of the places along each axis, and of the tension up and down, up to which the layout is to be good.
+        window_ms
+            Window in ms; by default the one that :meth:`design` recommends for evenly spread actuators.
+        restarts, seed
+            Number of random layouts that the search begins from, beside the greedy one, and their seed.
+        up_to
+            Largest number of actuators in the table of contrast against their number; by default twice `count`.
+        method
+            Methods of focusing whose drives are evaluated before and after.
+        output, no_figures, columns
+            Folder for the surface with the actuators in their places (``surface.toml``), report and figures; as for :meth:`focus`.
+
+        Returns
+        -------
+        Report
+            With the layout found as ``after``, the surface's own as ``before``, ``random`` ones, and the contrast of ``each_number`` of
+            actuators.
+
+        Examples
+        --------
+        >>> import unripple as ur
+        >>> film = ur.Surface("hudin-2012", band_hz=[0, 500])
+        >>> screen = [(40, 40), (110, 40), (110, 110), (40, 110)]
+        >>> report = film.place(count=3, rim_mm=(6, 12), screen=screen, restarts=1, targets=5)
+        >>> report.after.mean_contrast > report.random.mean_contrast
+        True
+        >>> places_mm = [[1e3 * x for x in actuator.at_m] for actuator in report.after.actuators]
+        >>> len(film.with_(actuators=places_mm).names)
+        3
+        """
+        return self._report("place", options)
+
     def compare(
         self, targets: _types.Targets | None = None, /, **options: Unpack[_types.CompareOptions]
     ) -> Report:

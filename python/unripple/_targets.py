@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from unripple._errors import AskError, OptionError
-from unripple._values import flag, is_row, many, number, path, place, plain, row, shown
+from unripple._values import Fields, flag, is_row, many, number, path, place, plain, row, shown
 
 #: What a point may be, for messages.
 _POINT = "X,Y[,GAIN[,HZ]] in mm and Hz"
@@ -44,6 +44,17 @@ def _point_of(name: str, value: Mapping[str, object]) -> dict[str, Any]:
 def points(name: str, value: object) -> list[dict[str, Any]]:
     """Return points to be in focus; one alone stands for a list of one."""
     return [point(name, item) for item in ([value] if is_row(value) else many(name, value))]
+
+
+def weighted(name: str, value: object) -> Fields:
+    """Return places, `(x, y[, weight])` in mm, in m, and their weights if any has one; one alone stands for a list of one."""
+    rows = [
+        row(name, item, "X,Y[,WEIGHT] in mm", 2, 3) for item in ([value] if is_row(value) else many(name, value))
+    ]
+    found = Fields(points_m=[[x / 1e3, y / 1e3] for x, y, *_ in rows])
+    if any(weight for _, _, *weight in rows):
+        found["weights"] = [weight[0] if weight else 1.0 for _, _, *weight in rows]
+    return found
 
 
 def shape(name: str, value: object) -> dict[str, Any]:

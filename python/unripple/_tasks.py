@@ -115,6 +115,31 @@ def modes(surface: _types.SurfaceLike, **options: Unpack[_types.ModesOptions]) -
     return _call.report("modes", options, surface=surface)
 
 
+def place(surface: _types.SurfaceLike, **options: Unpack[_types.PlaceOptions]) -> Report:
+    """Find where actuators should be so that time reversal has the most contrast, and how many are enough; see :meth:`Surface.place`.
+
+    Parameters
+    ----------
+    surface
+        A surface.
+    **options
+        As for :meth:`Surface.place`.
+
+    Returns
+    -------
+    Report
+
+    Examples
+    --------
+    >>> import unripple as ur
+    >>> film = ur.Surface("hudin-2012", band_hz=[0, 500])
+    >>> report = ur.place(film, count=3, rim_mm=(6, 12), restarts=1, targets=5)
+    >>> report.after.mean_contrast > report.random.mean_contrast
+    True
+    """
+    return _call.report("place", options, surface=surface)
+
+
 def compare(
     surface: _types.SurfaceLike | Sequence[_types.SurfaceLike],
     targets: _types.Targets | None = None,

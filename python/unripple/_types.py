@@ -21,6 +21,10 @@ SurfaceLike: TypeAlias = Surface | str | os.PathLike[str]
 Row: TypeAlias = Sequence[float] | npt.NDArray[np.floating[Any]] | npt.NDArray[np.integer[Any]] | str
 #: Places, or one alone.
 Places: TypeAlias = Row | Sequence[Row]
+#: A polygon: its corners, or a text of all these.
+Polygon: TypeAlias = Sequence[Row] | npt.NDArray[np.floating[Any]] | npt.NDArray[np.integer[Any]] | str
+#: Polygons, or one alone.
+Polygons: TypeAlias = Polygon | Sequence[Polygon]
 #: Points to be in focus, `(x, y[, gain[, hz]])` in mm and Hz, or mappings; or one alone.
 Points: TypeAlias = Row | Mapping[str, Any] | Sequence[Row | Mapping[str, Any]]
 #: A shape: a text as the command line has it, an SVG file, or a mapping.
@@ -44,6 +48,7 @@ Times: TypeAlias = float | Sequence[float] | npt.NDArray[np.floating[Any]]
 
 Method: TypeAlias = Literal["time-reversal", "one-bit", "inverse", "concentrate", "limited", "robust", "felt"]
 Between: TypeAlias = Literal["nearest", "linear", "kernel"]
+Objective: TypeAlias = Literal["mean", "worst", "quantile"]
 Losses: TypeAlias = Literal["none", "uniform", "per-mode"]
 Device: TypeAlias = Literal["virtual", "jack", "card", "tape"]
 
@@ -84,6 +89,52 @@ class FigureOptions(TypedDict, total=False):
     no_figures: bool | None
     columns: Literal[1, 2] | None
     output: Path | None
+
+
+class PlaceOptions(SurfaceOptions, FigureOptions, total=False):
+    """Options of `place`."""
+
+    count: int | None
+    keep: str | Sequence[str] | None
+    keep_all: bool | None
+    like: str | None
+    rim_mm: Row | None
+    rim_m: Row | None
+    within: Polygons | None
+    within_mm: Polygons | None
+    within_m: Polygons | None
+    keep_out: Polygons | None
+    keep_out_mm: Polygons | None
+    keep_out_m: Polygons | None
+    place: Places | None
+    places_mm: Places | None
+    places_m: Places | None
+    grid_mm: float | None
+    pitch_m: float | None
+    apart_mm: float | None
+    apart_m: float | None
+    at: Places | None
+    points_mm: Places | None
+    points_m: Places | None
+    weights: Sequence[float] | npt.NDArray[np.floating[Any]] | None
+    screen: Polygons | None
+    targets_within_mm: Polygons | None
+    targets_within_m: Polygons | None
+    targets: int | None
+    objective: Objective | None
+    share_percent: float | None
+    share: float | None
+    mounting_mm: float | None
+    mounting_m: float | None
+    tension_percent: float | None
+    tension: float | None
+    window_ms: float | None
+    window_s: float | None
+    restarts: int | None
+    seed: int | None
+    up_to: int | None
+    method: Method | Sequence[Method] | None
+    methods: Sequence[Method] | None
 
 
 class TargetOptions(TypedDict, total=False):

@@ -17,12 +17,22 @@ from unripple._errors import AskError, OptionError, UnrippleWarning
 #: Stands for an option that is given and sets nothing, such as a flag that is False.
 NOTHING: Any = object()
 
+#: What a polygon may be, for messages.
+_POLYGON = "at least three corners X,Y in mm"
+
+#: Most corners of a polygon that is a text: of more the command line takes some for a mistake.
+_CORNERS = 1000
+
 #: Share of a surface's larger side within which places are taken to be metres given for millimetres: any place on it would lie there. Nobody
 #: aims so near to a corner.
 _METRES = 1e-3
 
 #: Most characters of a value in a message; twice as many fill two lines with one value.
 _SHOWN = 80
+
+
+class Fields(dict[str, Any]):
+    """Values of several fields by their names, all of which one option sets."""
 
 
 def shown(value: object) -> str:
@@ -172,6 +182,40 @@ def places_m(name: str, value: object) -> list[list[float]]:
     """Return places in m; one alone stands for a list of one."""
     rows = [value] if is_row(value) else many(name, value)
     return [row(name, item, "x and y in m", 2, 2) for item in rows]
+
+
+def polygons(name: str, value: object) -> list[list[list[float]]]:
+    """Return polygons, given by their corners in mm or as texts of all these, in m; one alone stands for a list of one."""
+    return [_polygon(name, item) for item in _polygons(name, value)]
+
+
+def polygons_m(name: str, value: object) -> list[list[list[float]]]:
+    """Return polygons, given by their corners in m; one alone stands for a list of one."""
+    return [places_m(name, many(name, item)) for item in _polygons(name, value)]
+
+
+def _polygons(name: str, value: object) -> list[Any]:
+    """Return polygons as they are; corners, which are rows of numbers, are those of one alone."""
+    items = many(name, value)
+    return [items] if any(is_row(item) for item in items) else items
+
+
+def _polygon(name: str, value: object) -> list[list[float]]:
+    if isinstance(value, str):
+        mm = row(name, value, _POLYGON, 6, 2 * _CORNERS)
+        if len(mm) % 2 == 1:
+            raise AskError(field=name, expected="pairs X,Y in mm", found=f"{len(mm)} numbers")
+        return [[x / 1e3, y / 1e3] for x, y in zip(mm[::2], mm[1::2], strict=True)]
+    corners = [place(name, corner) for corner in many(name, value)]
+    if len(corners) < 3:
+        raise AskError(field=name, expected=_POLYGON, found=f"{len(corners)} corners")
+    return corners
+
+
+def distances(name: str, value: object) -> list[float]:
+    """Return a least and a greatest distance, given in mm, in m."""
+    least, most = row(name, value, "LEAST,MOST in mm", 2, 2)
+    return [least / 1e3, most / 1e3]
 
 
 def times_ms(name: str, value: object) -> list[float]:
