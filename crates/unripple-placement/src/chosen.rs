@@ -34,13 +34,13 @@ impl<'a> Chosen<'a> {
         &self.actuators
     }
 
-    /// Contrast of every case.
+    /// Contrast of every case, a ratio.
     pub fn contrasts(&self) -> Vec<f64> {
         let ratio = |(peak, square): (&f32, &f32)| f64::from(contrast(*peak, *square));
         self.peaks.iter().zip(&self.squares).map(ratio).collect()
     }
 
-    /// The figure that is optimised.
+    /// The figure that is optimised, a contrast (ratio).
     pub fn score(&self, objective: Objective) -> f64 {
         objective.of(&self.contrasts(), self.forms.weights())
     }

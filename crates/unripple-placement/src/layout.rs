@@ -94,7 +94,7 @@ fn of_targets(forms: &Forms, set: &[usize], targets: usize) -> Vec<Reached> {
         .collect()
 }
 
-/// A figure of the contrasts at some targets.
+/// A figure of the contrasts at some targets, itself a contrast (ratio).
 pub fn figure(reached: &[Reached], aims: &[Aim], objective: Objective) -> f64 {
     let total: f64 = aims.iter().map(|aim| aim.weight).sum();
     let weights: Vec<f64> = aims.iter().map(|aim| aim.weight / total).collect();

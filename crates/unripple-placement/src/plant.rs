@@ -52,7 +52,7 @@ impl Plant {
         &self.surface
     }
 
-    /// An upper bound of the relative error of the sheet's natural frequencies.
+    /// An upper bound of the relative error of the sheet's natural frequencies, a ratio.
     pub fn frequency_error(&self) -> f64 {
         self.modes.error()
     }

@@ -18,7 +18,7 @@ const MOVES: usize = 4;
 pub struct Polish<'a> {
     /// The models of the surface.
     pub plants: &'a [Plant],
-    /// The targets.
+    /// The targets, each with its weight.
     pub aims: &'a [Aim],
     /// Window T, in seconds.
     pub window: f64,

@@ -96,7 +96,7 @@ impl Search<'_> {
         (0..layouts).map(|_| one()).collect()
     }
 
-    /// The figure of a layout.
+    /// The figure of a layout, a contrast (ratio).
     pub fn score(&self, actuators: Vec<usize>) -> f64 {
         Chosen::new(self.forms, actuators).score(self.objective)
     }
