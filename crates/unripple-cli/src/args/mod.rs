@@ -22,7 +22,7 @@ pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
 pub use place::PlaceOptions;
 pub use play::{DoctorOptions, PlayOptions};
 pub use rerun::RerunOptions;
-pub use shell::{CompletionsOptions, ManOptions};
+pub use shell::{CacheOptions, CompletionsOptions, ManOptions};
 use std::path::PathBuf;
 pub use view::ViewOptions;
 
@@ -135,15 +135,6 @@ pub struct CheckOptions {
 pub struct MaterialsOptions {
     /// Name of one material; by default all are listed.
     pub name: Option<String>,
-}
-
-/// Options of `cache`.
-#[derive(Debug, Args)]
-#[command(after_help = examples::CACHE)]
-pub struct CacheOptions {
-    /// Remove all results from the cache.
-    #[arg(long)]
-    pub empty: bool,
 }
 
 /// Options of `devices`.

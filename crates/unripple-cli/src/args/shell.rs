@@ -1,9 +1,18 @@
-//! Options of `completions` and `man`.
+//! Options of `cache`, `completions` and `man`.
 
 use super::examples;
 use clap::Args;
 use clap_complete::Shell;
 use std::path::PathBuf;
+
+/// Options of `cache`.
+#[derive(Debug, Args)]
+#[command(after_help = examples::CACHE)]
+pub struct CacheOptions {
+    /// Remove all results from the cache.
+    #[arg(long)]
+    pub empty: bool,
+}
 
 /// Options of `completions`.
 #[derive(Debug, Args)]
