@@ -153,6 +153,32 @@ pub(crate) fn sweep(place: &Path) {
     }
 }
 
+/// Removes what killed programs left of the files and folders that they were writing into a folder. What a living program writes stays, and so
+/// does everything else.
+///
+/// ```
+/// let folder = std::env::temp_dir().join(format!("unripple-doc-left-{}", std::process::id()));
+/// std::fs::create_dir_all(folder.join(".7.jsonl.unripple-0123456789abcdef"))?;
+/// std::fs::write(folder.join("notes.txt"), "an afternoon")?;
+/// unripple_store::remove_left(&folder);
+/// assert_eq!(std::fs::read_dir(&folder)?.count(), 1);
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), std::io::Error>(())
+/// ```
+pub fn remove_left(folder: impl AsRef<Path>) {
+    let folder = folder.as_ref();
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let parts = name.to_str().and_then(|name| name.strip_prefix('.')?.rsplit_once(".unripple-"));
+        let Some((shown, random)) = parts else { continue };
+        let ours = random.len() == LETTERS && random.bytes().all(|b| b.is_ascii_hexdigit());
+        if ours && entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            // What cannot be removed now is there for the next one.
+            let _ = bury(&entry.path(), &folder.join(shown));
+        }
+    }
+}
+
 fn bury(folder: &Path, place: &Path) -> io::Result<()> {
     let lock = File::open(folder)?;
     if lock.try_lock().is_err() {

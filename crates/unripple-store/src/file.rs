@@ -4,7 +4,7 @@ use crate::StoreError;
 use crate::building::Building;
 use crate::underway::{Underway, What};
 use std::fs::{self, File};
-use std::io::{ErrorKind, Read, Write};
+use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Largest text file read, in bytes: 1 MiB, some hundred times a long surface file.
@@ -57,6 +57,40 @@ pub(crate) fn too_large(name: &str, bytes: u64) -> StoreError {
 pub fn write_file(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), StoreError> {
     let path = path.as_ref();
     write_beside(path, |file| file.write_all(bytes).map_err(StoreError::write(path)))
+}
+
+/// As [`write_file`], for a file that `fill` writes bit by bit, and that is on the disk before it has its name: also after a loss of power the file
+/// is complete, or is not there.
+///
+/// # Errors
+/// Those of [`write_file`], and [`StoreError::Write`] with an error of `fill`.
+///
+/// ```
+/// use std::io::Write;
+///
+/// let path = std::env::temp_dir().join(format!("unripple-doc-durable-{}.txt", std::process::id()));
+/// unripple_store::write_durably(&path, |file| (0..3).try_for_each(|i| writeln!(file, "{i}")))?;
+/// assert_eq!(std::fs::read(&path).unwrap(), b"0\n1\n2\n");
+/// # std::fs::remove_file(&path).unwrap();
+/// # Ok::<(), unripple_store::StoreError>(())
+/// ```
+pub fn write_durably(
+    path: impl AsRef<Path>,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), StoreError> {
+    let path = path.as_ref();
+    let durable = |file: &mut File| {
+        let mut buffered = BufWriter::new(&mut *file);
+        fill(&mut buffered)?;
+        buffered.flush()?;
+        drop(buffered);
+        file.sync_all()
+    };
+    write_beside(path, |file| durable(file).map_err(StoreError::write(path)))?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    // So that its name is on the disk too. Some systems cannot do that to a folder, or need not.
+    let _ = File::open(folder.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all());
+    Ok(())
 }
 
 /// Name of a file while it is being written, in a hidden folder beside its destination.

@@ -12,6 +12,7 @@
 //! - [`Drawing`] reads the shapes of an SVG document as polylines, in metres; [`read_curves`] keeps them as curves.
 //! - [`Library`] stores responses, measured or modelled, as a Zarr v3 folder that survives being killed, and exports
 //!   them as WAV and SOFA.
+//! - [`load_plan`] reads the plan of a sweep.
 //! - [`load_effects`] reads built-in effects, a file of effects, or one for phones; [`effects_to_toml`] writes one.
 //! - [`OutputDir`] collects what a run writes and puts it in place in one step, replacing only the output of an
 //!   earlier run; [`abandon_all`] removes what is under construction before a program ends early.
@@ -39,6 +40,7 @@ mod listing;
 mod load;
 mod names;
 mod output;
+mod plans;
 mod set;
 mod sofa;
 mod surface;
@@ -48,6 +50,7 @@ mod underway;
 mod wav;
 mod wide;
 
+pub use building::remove_left;
 pub use builtin::{BUILTINS, Builtin};
 pub use cache::{DiskCache, Usage};
 pub use effects::{
@@ -56,13 +59,14 @@ pub use effects::{
 };
 pub use error::StoreError;
 pub use fault::{Fault, FileFaults};
-pub use file::{LARGEST_TEXT, check_new_file, new_file, write_file};
+pub use file::{LARGEST_TEXT, check_new_file, new_file, write_durably, write_file};
 pub use kept::{check_kept_wav, write_kept_wav};
 pub use library::{BandQuality, Damage, Doubt, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
 pub use listing::MARKER;
 pub use load::{load_surface, load_surface_with, surface_files};
 pub use names::nearest;
 pub use output::{Committed, OutputDir};
+pub use plans::{Axis, AxisValues, Designs, MOST_DESIGNS, PlanFile, PlanTask, Varied, load_plan, parse_plan};
 pub use set::set_keys;
 pub use sofa::{SofaAbout, date};
 pub use surface::{parse_surface, parse_surface_with, to_toml};

@@ -6,7 +6,7 @@ use crate::fault::{Fault, MOST_FAULTS};
 use crate::names::nearest;
 use std::ops::Range;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeString, DeTable, DeValue};
 
 /// Longest piece of a file quoted in a message, in characters. Longer ones are cut, so that a message stays a line.
 const LONGEST_QUOTE: usize = 40;
@@ -171,6 +171,11 @@ impl<'a> Entry<'a> {
         read.into_iter().collect::<Option<Vec<f64>>>()?.try_into().ok()
     }
 
+    /// The value as TOML has it.
+    pub fn raw(&self) -> &'a DeValue<'a> {
+        self.value
+    }
+
     /// Whether the value is a number.
     pub fn is_number(&self) -> bool {
         matches!(self.value, DeValue::Integer(_) | DeValue::Float(_))
@@ -249,6 +254,15 @@ impl<'a> Section<'a> {
             let found = format!("an unknown key `{}`", clip(name));
             faults.add(&clip(&self.path(name)), key.span(), found, expected, near);
         }
+    }
+
+    /// All keys of the table itself: their names, the bytes that these take up, and their values.
+    pub fn entries(&self) -> Vec<(String, Range<usize>, Entry<'a>)> {
+        let one = |(key, value): (&'a Spanned<DeString<'a>>, &'a Spanned<DeValue<'a>>)| {
+            let name: &str = key.get_ref();
+            (name.to_owned(), key.span(), Entry::new(self.path(name), value))
+        };
+        self.table.iter().map(one).collect()
     }
 
     /// The value of a key, if the key is here or among the defaults.

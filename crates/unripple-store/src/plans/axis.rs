@@ -1,0 +1,156 @@
+//! One axis of a plan: what varies along it, and its values.
+
+use super::designs::MOST_DESIGNS;
+use super::value::{ANY, flag, json};
+use super::varied::{self, Varied};
+use crate::surface::reader::{Entry, Faults, Section};
+use serde::Serialize;
+use serde_json::Value;
+
+/// Keys of an axis.
+const KEYS: [&str; 8] = ["key", "ask", "values", "from", "to", "steps", "log", "whole"];
+
+/// Largest whole number of an axis: all up to it are numbers of 64 bits with a fraction.
+const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
+
+/// What varies along an axis, and over which values.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Axis {
+    /// The key of the surface file or the field of the request.
+    pub varied: Varied,
+    /// The values of the axis.
+    pub values: AxisValues,
+}
+
+/// The values of an axis.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AxisValues {
+    /// One after the other, as listed.
+    List(Vec<Value>),
+    /// Numbers between two ends.
+    Range {
+        /// The least value, in the unit of the key or field.
+        from: f64,
+        /// The greatest value, above the least.
+        to: f64,
+        /// Number of values, at least 2, both ends among them; `None` where Sobol points choose them.
+        steps: Option<usize>,
+        /// Whether ratios of neighbours are equal, rather than differences; both ends are then above 0.
+        log: bool,
+        /// Whether values are whole numbers.
+        whole: bool,
+    },
+}
+
+impl Axis {
+    /// Number of values of the axis; 1 where Sobol points choose them.
+    pub fn count(&self) -> usize {
+        match &self.values {
+            AxisValues::List(list) => list.len(),
+            AxisValues::Range { steps, .. } => steps.unwrap_or(1),
+        }
+    }
+}
+
+/// An axis from its table. `sobol` says whether Sobol points choose its values; `fields` are those of the task, if it is known.
+pub(super) fn read(
+    section: &Section,
+    sobol: bool,
+    fields: Option<&[&str]>,
+    faults: &mut Faults,
+) -> Option<Axis> {
+    section.check_keys(&KEYS, |_| None, faults);
+    let varied = varied(section, fields, faults);
+    let values = values(section, sobol, faults);
+    Some(Axis { varied: varied?, values: values? })
+}
+
+fn varied(section: &Section, fields: Option<&[&str]>, faults: &mut Faults) -> Option<Varied> {
+    match (section.get("key"), section.get("ask")) {
+        (Some(key), None) => varied::key(&key, faults),
+        (None, Some(field)) => varied::field(&field, fields, faults),
+        (Some(_), Some(field)) => {
+            field.refuse("key or ask, not both", None, faults);
+            None
+        }
+        (None, None) => {
+            let expected = "key, a key of the surface file, or ask, a field of the task's request";
+            faults.add(&section.key, section.span.clone(), "neither key nor ask", expected, None);
+            None
+        }
+    }
+}
+
+fn values(section: &Section, sobol: bool, faults: &mut Faults) -> Option<AxisValues> {
+    let (from, to) = (section.get("from"), section.get("to"));
+    match (section.get("values"), from, to) {
+        (Some(entry), None, None) if !sobol => list(&entry, faults),
+        (Some(entry), None, None) => {
+            entry.refuse("from and to, between which Sobol points lie", None, faults);
+            None
+        }
+        (Some(entry), ..) => {
+            entry.refuse("values, or from and to, not both", None, faults);
+            None
+        }
+        (None, Some(from), Some(to)) => range(section, [&from, &to], sobol, faults),
+        (None, ..) => {
+            let expected = if sobol { "from and to" } else { "values, or from, to and steps" };
+            faults.add(&section.key, section.span.clone(), "no range of values", expected, None);
+            None
+        }
+    }
+}
+
+fn list(entry: &Entry, faults: &mut Faults) -> Option<AxisValues> {
+    let Some(items) = entry.items().filter(|items| !items.is_empty()) else {
+        entry.refuse("a list of at least one value", None, faults);
+        return None;
+    };
+    let read: Vec<_> = items.iter().map(|item| json(item, faults)).collect();
+    read.into_iter().collect::<Option<_>>().map(AxisValues::List)
+}
+
+fn range(section: &Section, ends: [&Entry; 2], sobol: bool, faults: &mut Faults) -> Option<AxisValues> {
+    let [from, to] = ends.map(|end| end.number(&ANY, faults));
+    let (log, whole) = (flag(section.get("log"), faults), flag(section.get("whole"), faults));
+    let steps = steps(section, sobol, faults);
+    let (from, to, log, whole, steps) = (from?, to?, log?, whole?, steps?);
+    if from >= to {
+        ends[1].refuse(format!("a number above from = {from}: an empty range has no values"), None, faults);
+        return None;
+    }
+    if log && from <= 0.0 {
+        ends[0].refuse("a number above 0 where log = true", None, faults);
+        return None;
+    }
+    let is_whole = |end: f64| end.fract() == 0.0 && end.abs() <= LARGEST_WHOLE;
+    if whole && !(is_whole(from) && is_whole(to)) {
+        ends[usize::from(is_whole(from))].refuse("a whole number where whole = true", None, faults);
+        return None;
+    }
+    if whole && steps.is_some_and(|steps| steps as f64 > to - from + 1.0) {
+        let most = format!("at most {} steps, since there are no more whole numbers", to - from + 1.0);
+        section.get("steps")?.refuse(most, None, faults);
+        return None;
+    }
+    Some(AxisValues::Range { from, to, steps, log, whole })
+}
+
+/// The number of steps: `Some(None)` where Sobol points choose the values.
+fn steps(section: &Section, sobol: bool, faults: &mut Faults) -> Option<Option<usize>> {
+    match (section.get("steps"), sobol) {
+        (None, true) => Some(None),
+        (Some(entry), true) => {
+            entry.refuse("no steps: count in [sobol] says how many designs there are", None, faults);
+            None
+        }
+        (Some(entry), false) => entry.count(2, MOST_DESIGNS, faults).map(Some),
+        (None, false) => {
+            let expected = format!("a whole number from 2 to {MOST_DESIGNS}");
+            section.require("steps", &expected, faults);
+            None
+        }
+    }
+}
