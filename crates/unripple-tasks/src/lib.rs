@@ -68,6 +68,7 @@ mod solved;
 pub mod source;
 pub mod stroke;
 mod surface;
+pub mod sweep;
 pub mod target;
 pub mod waveform;
 mod window;

@@ -1,14 +1,15 @@
 //! Performs a command by its name.
 
-use super::done::{Done, default_of};
+use super::done::{Done, default_of, perform};
 use super::list::{TASKS, find};
 use crate::record::{Request, asked};
-use crate::{Progress, TaskError, rerun};
+use crate::{Progress, TaskError, rerun, sweep};
 use serde_json::Value;
 
-/// Names of the commands that [`run`] performs: all tasks, and `rerun`.
-pub const COMMANDS: [&str; TASKS.len() + 1] = {
-    let mut names = [rerun::Ask::COMMAND; TASKS.len() + 1];
+/// Names of the commands that [`run`] performs: all tasks, and `sweep` and `rerun`, which perform them.
+pub const COMMANDS: [&str; TASKS.len() + 2] = {
+    let mut names = [rerun::Ask::COMMAND; TASKS.len() + 2];
+    names[TASKS.len()] = sweep::Ask::COMMAND;
     let mut at = 0;
     while at < TASKS.len() {
         names[at] = TASKS[at].name;
@@ -24,6 +25,7 @@ pub const COMMANDS: [&str; TASKS.len() + 1] = {
 pub fn default_ask(command: &str) -> Result<Value, TaskError> {
     match find(command) {
         Some(task) => (task.default_ask)(),
+        None if command == sweep::Ask::COMMAND => default_of::<sweep::Ask>(),
         None if command == rerun::Ask::COMMAND => default_of::<rerun::Ask>(),
         None => Err(unknown(command, &COMMANDS)),
     }
@@ -47,6 +49,7 @@ pub fn default_ask(command: &str) -> Result<Value, TaskError> {
 pub fn run(command: &str, ask: Value, progress: &mut dyn Progress) -> Result<Done, TaskError> {
     match find(command) {
         Some(task) => (task.run)(ask, progress),
+        None if command == sweep::Ask::COMMAND => perform(ask, sweep::run, progress),
         None if command == rerun::Ask::COMMAND => {
             Done::of(&rerun::run(&asked::<rerun::Ask>(ask)?, progress)?, None)
         }

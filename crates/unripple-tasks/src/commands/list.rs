@@ -1,7 +1,7 @@
 //! The list of all tasks.
 
 use super::done::{Done, again, default_of, perform};
-use crate::record::{Record, Request};
+use crate::record::{Record, Request, asked};
 use crate::{Progress, TaskError};
 use crate::{
     calibrate, check, compare, design, devices, doctor, drift, export, field, fit, focus, materials, modes,
@@ -16,6 +16,8 @@ pub(crate) struct Command {
     pub(crate) name: &'static str,
     /// Returns the default request of the command, as JSON.
     pub(crate) default_ask: fn() -> Result<Value, TaskError>,
+    /// Checks that a request has known fields with values of the right kinds.
+    pub(crate) check: fn(Value) -> Result<(), TaskError>,
     /// Performs the command, from its request as JSON.
     pub(crate) run: fn(Value, &mut dyn Progress) -> Result<Done, TaskError>,
     /// Repeats a recorded run of the command, with its results written to another path.
@@ -28,6 +30,7 @@ macro_rules! commands {
         [$(Command {
             name: $task::Ask::COMMAND,
             default_ask: default_of::<$task::Ask>,
+            check: |ask| asked::<$task::Ask>(ask).map(drop),
             run: |ask, progress| perform(ask, $task::run, progress),
             again: |record, output, progress| again(record, output, $task::run, progress),
         }),*]
@@ -35,7 +38,7 @@ macro_rules! commands {
 }
 
 /// The tasks in the order in which a surface is developed: designed, simulated, driven, measured, played.
-pub(super) const TASKS: &[Command] = &commands![
+pub(crate) const TASKS: &[Command] = &commands![
     check, design, modes, materials, place, focus, waveform, stroke, field, compare, respond, calibrate, fit,
     export, drift, doctor, devices, play
 ];

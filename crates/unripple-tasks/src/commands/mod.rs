@@ -8,4 +8,4 @@ mod list;
 pub use crate::record::asked;
 pub use by_name::{COMMANDS, default_ask, run, unknown};
 pub use done::{Done, again, default_of, perform};
-pub(crate) use list::find;
+pub(crate) use list::{Command, TASKS, find};

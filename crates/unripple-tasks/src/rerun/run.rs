@@ -1,9 +1,9 @@
 //! Reads the record in a report, and repeats the run that it describes.
 
 use super::{Ask, Report};
-use crate::commands::find;
-use crate::record::Record;
-use crate::{Progress, TaskError, go_on};
+use crate::commands::{again, find};
+use crate::record::{Record, Request};
+use crate::{Progress, TaskError, go_on, sweep};
 use serde::Deserialize;
 
 /// The part of a report that is read: the record of its run.
@@ -42,6 +42,9 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 pub fn repeat(record: &Record, ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     match find(&record.command) {
         Some(task) => Report::of((task.again)(record, ask.output.clone(), progress)?),
+        None if record.command == sweep::Ask::COMMAND => {
+            Report::of(again(record, ask.output.clone(), sweep::run, progress)?)
+        }
         None => Err(TaskError::Input(format!(
             "{}: expected a command that can be repeated, found `{}`",
             ask.report.display(),

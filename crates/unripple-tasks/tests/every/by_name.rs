@@ -33,8 +33,9 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<doctor::Ask>();
     whole::<devices::Ask>();
     whole::<play::Ask>();
+    whole::<sweep::Ask>();
     whole::<rerun::Ask>();
-    assert_eq!(commands::COMMANDS.len(), 19);
+    assert_eq!(commands::COMMANDS.len(), 20);
 }
 
 #[test]

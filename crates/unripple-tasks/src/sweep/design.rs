@@ -1,0 +1,138 @@
+//! One design of a plan, and the request that its values make.
+
+use super::pairs::Pairs;
+use super::surface::Ground;
+use super::values;
+use crate::TaskError;
+use crate::record::of_bytes;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use unripple_store::{PlanFile, Varied};
+
+/// One design of a plan: its values, and a hash of all that its figures follow from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// Index of the design, counted from 0.
+    pub index: usize,
+    /// Values by the names `surface:KEY` and `ask:FIELD`, in the order of the plan.
+    pub values: Pairs,
+    /// SHA-256, in hexadecimal digits, of task, surface, request and values.
+    pub hash: String,
+    own: Vec<(Varied, Value)>,
+}
+
+impl Design {
+    /// The design with an index; `surface` is the hash of the surface as the plan names it.
+    pub(super) fn of(plan: &PlanFile, surface: &str, index: usize) -> Self {
+        let own = values::of(&plan.designs, index);
+        let values = values::named(&own);
+        let ask: Map<String, Value> = plan.ask.clone().into_iter().collect();
+        let named: Map<String, Value> = values.0.iter().cloned().collect();
+        let all = json!({ "task": plan.task, "surface": surface, "ask": ask, "values": named });
+        Self { index, values, hash: of_bytes(canonical(&all).as_bytes()), own }
+    }
+
+    /// The request of the design, with its surface.
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] of a key or a field that the values cannot be put under.
+    pub(super) fn ask(&self, plan: &PlanFile, ground: &Ground) -> Result<Value, TaskError> {
+        let mut ask = Value::Object(plan.ask.clone().into_iter().collect());
+        let mut keys = Vec::new();
+        for (varied, value) in &self.own {
+            match varied {
+                Varied::Surface(key) => keys.push((key.clone(), written(value))),
+                Varied::Ask(path) => put(&mut ask, path, value.clone())?,
+            }
+        }
+        ask["surface"] = serde_json::to_value(ground.with(keys)?).map_err(TaskError::work)?;
+        Ok(ask)
+    }
+}
+
+/// Puts a value into a request, at a path of keys and of indices of lists; tables that are not there are made.
+fn put(ask: &mut Value, path: &str, value: Value) -> Result<(), TaskError> {
+    let mut here = ask;
+    for step in path.split('.') {
+        here = match here {
+            Value::Array(list) => {
+                let count = list.len();
+                let at = step.parse::<usize>().ok().and_then(|at| list.get_mut(at));
+                at.ok_or_else(|| {
+                    let expected = format!("expected an index below {count} in a list");
+                    TaskError::Input(format!("ask:{path}: {expected}, found `{step}`"))
+                })?
+            }
+            other => {
+                // A text or a number stood for another form of the same field.
+                if !other.is_object() {
+                    *other = Value::Object(Map::new());
+                }
+                &mut other[step]
+            }
+        };
+    }
+    *here = value;
+    Ok(())
+}
+
+/// A value as a surface file writes it.
+fn written(value: &Value) -> String {
+    match value {
+        Value::Array(list) => format!("[{}]", list.iter().map(written).collect::<Vec<_>>().join(", ")),
+        Value::Object(map) => {
+            let items =
+                map.iter().map(|(key, value)| format!("{} = {}", Value::from(&**key), written(value)));
+            format!("{{ {} }}", items.collect::<Vec<_>>().join(", "))
+        }
+        // Escapes of JSON are those of TOML.
+        other => other.to_string(),
+    }
+}
+
+/// JSON text that is the same for equal values: keys in order, no spaces.
+pub(super) fn canonical(value: &Value) -> String {
+    match value {
+        Value::Object(map) => {
+            let sorted: BTreeMap<&String, &Value> = map.iter().collect();
+            let items = sorted
+                .iter()
+                .map(|(key, value)| format!("{}:{}", Value::from(key.as_str()), canonical(value)));
+            format!("{{{}}}", items.collect::<Vec<_>>().join(","))
+        }
+        Value::Array(list) => format!("[{}]", list.iter().map(canonical).collect::<Vec<_>>().join(",")),
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_put_where_their_paths_lead() {
+        let mut ask = json!({ "points": [{ "at_m": [0.1, 0.2] }], "level": "limit" });
+        put(&mut ask, "points.0.at_m.1", 0.3.into()).unwrap();
+        put(&mut ask, "level.peak_m", 1e-6.into()).unwrap();
+        put(&mut ask, "window_s", 0.02.into()).unwrap();
+        let expected =
+            json!({ "points": [{ "at_m": [0.1, 0.3] }], "level": { "peak_m": 1e-6 }, "window_s": 0.02 });
+        assert_eq!(ask, expected);
+        let refused = put(&mut ask, "points.1.at_m", json!([0.1, 0.1])).unwrap_err();
+        assert_eq!(refused.to_string(), "ask:points.1.at_m: expected an index below 1 in a list, found `1`");
+    }
+
+    #[test]
+    fn values_are_written_as_a_surface_file_has_them() {
+        let texts =
+            [json!(200), json!(0.5), json!("a \"b\""), json!([1, "x"]), json!({ "mm": 2 }), json!(true)];
+        let written: Vec<String> = texts.iter().map(written).collect();
+        assert_eq!(written, ["200", "0.5", r#""a \"b\"""#, r#"[1, "x"]"#, r#"{ "mm" = 2 }"#, "true"]);
+    }
+
+    #[test]
+    fn equal_values_have_one_text() {
+        let text = canonical(&json!({ "b": [1.5, null], "a": { "d": "x", "c": 2 } }));
+        assert_eq!(text, r#"{"a":{"c":2,"d":"x"},"b":[1.5,null]}"#);
+    }
+}

@@ -1,0 +1,241 @@
+//! The folder of a sweep: its plan, and the rows of each shard as a file that is complete or not there.
+
+use super::{Plan, Row};
+use crate::{Progress, TaskError, go_on};
+use serde::Serialize;
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::ErrorKind;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use unripple_store::{PlanFile, StoreError, remove_left, write_durably};
+
+/// File with the plan that the rows are of.
+const KEPT: &str = "plan.json";
+
+/// Folder of the shards that are done: a file of rows for each.
+const PARTS: &str = "parts";
+
+/// Folder of single designs whose shard is not done yet.
+const ROWS: &str = "rows";
+
+/// The folder that a sweep fills.
+pub(super) struct Folder<'p> {
+    /// The plan that all rows are of.
+    pub plan: &'p Plan,
+    path: PathBuf,
+}
+
+/// What the file of the plan holds.
+#[derive(Serialize)]
+struct Kept<'p> {
+    format: u32,
+    sha256: &'p str,
+    surface_sha256: &'p str,
+    designs: usize,
+    shards: usize,
+    plan: &'p PlanFile,
+}
+
+impl<'p> Folder<'p> {
+    /// Opens the folder of a plan, or begins it: where nothing is yet, or the same plan.
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] if the folder is of another plan; [`TaskError::Work`] if other things are in it or it cannot be written to.
+    pub fn open(plan: &'p Plan, path: &Path) -> Result<Self, TaskError> {
+        fs::create_dir_all(path).map_err(failed(path))?;
+        let kept = path.join(KEPT);
+        loop {
+            match fs::read_to_string(&kept) {
+                Ok(text) => break is_of(plan, path, &text)?,
+                Err(error) if error.kind() != ErrorKind::NotFound => return Err(failed(&kept)(error)),
+                // Another process may have begun it meanwhile.
+                Err(_) => match guest(path)? {
+                    Some(_) if kept.exists() => {}
+                    Some(found) => return Err(occupied(path, found)),
+                    None => begin(plan, &kept)?,
+                },
+            }
+        }
+        let parts = path.join(PARTS);
+        fs::create_dir_all(&parts).map_err(failed(&parts))?;
+        [path, parts.as_path(), path.join(ROWS).as_path()].into_iter().for_each(remove_left);
+        Ok(Self { plan, path: path.into() })
+    }
+
+    /// The path of a file in the folder.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    fn part(&self, shard: usize) -> PathBuf {
+        self.path.join(PARTS).join(format!("{shard}.jsonl"))
+    }
+
+    fn row_file(&self, index: usize) -> PathBuf {
+        self.path.join(ROWS).join(format!("{index}.json"))
+    }
+
+    /// Whether a shard is done.
+    pub fn has(&self, shard: usize) -> bool {
+        self.part(shard).is_file()
+    }
+
+    /// The shards that are not done, in order.
+    ///
+    /// # Errors
+    /// [`TaskError::Work`] if the folder cannot be read.
+    pub fn missing(&self) -> Result<Vec<usize>, TaskError> {
+        let parts = self.path.join(PARTS);
+        let mut done = BTreeSet::new();
+        for entry in fs::read_dir(&parts).map_err(failed(&parts))? {
+            let name = entry.map_err(failed(&parts))?.file_name();
+            let shard = name.to_str().and_then(|name| name.strip_suffix(".jsonl")?.parse::<usize>().ok());
+            done.extend(shard);
+        }
+        Ok((0..self.plan.shards()).filter(|shard| !done.contains(shard)).collect())
+    }
+
+    /// Computes a shard, designs that are kept already left out, and puts its rows in place.
+    ///
+    /// # Errors
+    /// [`TaskError::Cancelled`]; [`TaskError::Work`] if the rows cannot be written.
+    pub fn compute(&self, shard: usize, progress: &mut dyn Progress) -> Result<(), TaskError> {
+        let mut rows = Vec::new();
+        for index in self.plan.shard(shard) {
+            go_on(progress)?;
+            rows.push(match self.row(index)? {
+                Some(row) => row,
+                None => Row::computed(self.plan, index, progress)?,
+            });
+        }
+        self.put(shard, &rows)
+    }
+
+    /// Puts the rows of a shard in place, which is then done, and removes what was kept of single designs.
+    ///
+    /// # Errors
+    /// [`TaskError::Work`] if they cannot be written.
+    pub fn put(&self, shard: usize, rows: &[Row]) -> Result<(), TaskError> {
+        let lines = rows.iter().map(serde_json::to_string).collect::<Result<Vec<_>, _>>();
+        let lines = lines.map_err(TaskError::work)?;
+        write_durably(self.part(shard), |file| lines.iter().try_for_each(|line| writeln!(file, "{line}")))?;
+        // What is left of single designs is of no further use, and in nobody's way.
+        if self.path.join(ROWS).is_dir() {
+            self.plan.shard(shard).for_each(|index| drop(fs::remove_file(self.row_file(index))));
+            let _ = fs::remove_dir(self.path.join(ROWS));
+        }
+        Ok(())
+    }
+
+    /// Keeps the row of a design until its shard is done.
+    ///
+    /// # Errors
+    /// [`TaskError::Work`] if it cannot be written.
+    pub fn put_row(&self, row: &Row) -> Result<(), TaskError> {
+        let rows = self.path.join(ROWS);
+        fs::create_dir_all(&rows).map_err(failed(&rows))?;
+        let line = serde_json::to_string(row).map_err(TaskError::work)?;
+        Ok(write_durably(self.row_file(row.index), |file| writeln!(file, "{line}"))?)
+    }
+
+    /// The row that is kept of a design; `None` if there is none.
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] if it is not what this program writes.
+    pub fn row(&self, index: usize) -> Result<Option<Row>, TaskError> {
+        let path = self.row_file(index);
+        let Ok(text) = fs::read_to_string(&path) else { return Ok(None) };
+        Ok(rows_of(&path, &text, index..index + 1)?.pop())
+    }
+
+    /// The rows of a shard that is done.
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] if its file cannot be read or is not what this program writes.
+    pub fn rows(&self, shard: usize) -> Result<Vec<Row>, TaskError> {
+        let path = self.part(shard);
+        let text = fs::read_to_string(&path)
+            .map_err(|reason| TaskError::from(StoreError::Read { path: path.clone(), reason }))?;
+        rows_of(&path, &text, self.plan.shard(shard))
+    }
+
+    /// Shows `take` all rows in order, once all shards are done.
+    ///
+    /// # Errors
+    /// Those of [`rows`](Self::rows) and of `take`.
+    pub fn each(&self, take: &mut dyn FnMut(Row) -> Result<(), TaskError>) -> Result<(), TaskError> {
+        (0..self.plan.shards()).try_for_each(|shard| self.rows(shard)?.into_iter().try_for_each(&mut *take))
+    }
+}
+
+/// Rows from the lines of a file, which must be those of some designs.
+fn rows_of(path: &Path, text: &str, designs: Range<usize>) -> Result<Vec<Row>, TaskError> {
+    let refused = |found: String| {
+        let (first, last) = (designs.start, designs.end.saturating_sub(1));
+        TaskError::Input(format!(
+            "{}: expected the rows of designs {first} to {last}, found {found}; remove the file to have it computed again",
+            path.display()
+        ))
+    };
+    let read = text.lines().map(serde_json::from_str::<Row>).collect::<Result<Vec<_>, _>>();
+    let rows = read.map_err(|error| refused(error.to_string()))?;
+    match rows.iter().map(|row| row.index).eq(designs.clone()) {
+        true => Ok(rows),
+        false => Err(refused(format!("{} rows of others", rows.len()))),
+    }
+}
+
+/// Turns an error of the system into one that says what could not be written.
+fn failed(path: &Path) -> impl Fn(std::io::Error) -> TaskError + use<> {
+    let path = path.to_path_buf();
+    move |reason| StoreError::Write { path: path.clone(), reason }.into()
+}
+
+/// Writes the file of the plan, which makes a folder that of a sweep.
+fn begin(plan: &Plan, path: &Path) -> Result<(), TaskError> {
+    let kept = Kept {
+        format: 1,
+        sha256: plan.hash(),
+        surface_sha256: plan.surface_sha256(),
+        designs: plan.len(),
+        shards: plan.shards(),
+        plan: plan.file(),
+    };
+    let text = serde_json::to_string_pretty(&kept).map_err(TaskError::work)?;
+    Ok(write_durably(path, |file| writeln!(file, "{text}"))?)
+}
+
+/// Refuses a folder whose rows are those of another plan.
+fn is_of(plan: &Plan, path: &Path, text: &str) -> Result<(), TaskError> {
+    let kept: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
+    match kept["sha256"].as_str() {
+        Some(found) if found == plan.hash() => Ok(()),
+        found => Err(TaskError::Input(format!(
+            "{}: expected rows of this plan on this surface (SHA-256 {}), found those of another ({}); name another folder",
+            path.display(),
+            plan.hash(),
+            found.unwrap_or("unknown")
+        ))),
+    }
+}
+
+/// Something in a folder that is no beginning of a sweep; `None` if nothing is there.
+fn guest(path: &Path) -> Result<Option<String>, TaskError> {
+    let hidden = format!(".{KEPT}.");
+    for entry in fs::read_dir(path).map_err(failed(path))? {
+        let name = entry.map_err(failed(path))?.file_name().to_string_lossy().into_owned();
+        // Programs that call shards may make the folders of what they expect.
+        let expected =
+            name == PARTS && fs::read_dir(path.join(PARTS)).is_ok_and(|mut parts| parts.next().is_none());
+        if !expected && !name.starts_with(&hidden) {
+            return Ok(Some(name));
+        }
+    }
+    Ok(None)
+}
+
+fn occupied(path: &Path, found: String) -> TaskError {
+    let expected = "no such folder yet, an empty one, or that of the same sweep";
+    StoreError::Occupied { path: path.into(), expected, found: format!("a folder with `{found}`") }.into()
+}

@@ -1,0 +1,217 @@
+//! A plan of a sweep, opened: every design by its index alone.
+
+use super::design::{Design, canonical};
+use super::flat::is_of_the_clock;
+use super::surface::{self, Ground};
+use crate::commands::{Command, TASKS, find, unknown};
+use crate::cost::Estimate;
+use crate::record::of_bytes;
+use crate::{SurfaceAsk, TaskError, machine};
+use serde_json::{Value, json};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use unripple::act::model_cost;
+use unripple_store::{PlanFile, PlanTask, Varied, load_plan};
+
+/// Tasks of devices, or that look at this machine: their reports are of the moment, and no process may disturb another.
+const OF_DEVICES: [&str; 3] = ["drift", "doctor", "play"];
+
+/// Fields that a plan does not set: the surface has a key of its own, and designs write no files.
+const NOT_SET: [&str; 2] = ["surface", "output"];
+
+/// A plan with its surface, as a sweep computes it. Designs are found by arithmetic from their index; none is held in memory.
+///
+/// ```
+/// use unripple_tasks::sweep::Plan;
+///
+/// let file = std::env::temp_dir().join(format!("unripple-doc-plan-{}.toml", std::process::id()));
+/// let text = r#"
+///     format = 1
+///     task = "modes"
+///     surface = "hudin-2012"
+///     shard = 50
+///     [[axis]]
+///     key = "sheet.tension_n_per_m"
+///     from = 100
+///     to = 400
+///     steps = 1000
+///     [[axis]]
+///     key = "sheet.thickness_mm"
+///     values = [0.1, 0.125]
+/// "#;
+/// std::fs::write(&file, text)?;
+/// let plan = Plan::open(&file)?;
+/// assert_eq!((plan.len(), plan.shards(), plan.shard(39)), (2000, 40, 1950..2000));
+/// let last = plan.design(1999);
+/// assert_eq!(last.values.get("surface:sheet.tension_n_per_m"), Some(&400.0.into()));
+/// assert_eq!(plan.ask(&last)?["surface"]["name"], "hudin-2012");
+/// # std::fs::remove_file(&file)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Plan {
+    file: PlanFile,
+    ground: Ground,
+    surface_sha256: String,
+    hash: String,
+}
+
+/// Tasks that plans may name, with the fields that they may set: tasks of one surface that need neither a device nor a folder.
+fn tasks() -> Vec<PlanTask> {
+    let task = |task: &Command| {
+        let Ok(Value::Object(ask)) = (task.default_ask)() else { return None };
+        let writes = ask.get("output").is_some_and(|output| !output.is_null());
+        let fits = ask.contains_key("surface") && !writes && !OF_DEVICES.contains(&task.name);
+        let fields = ask.keys().filter(|field| !NOT_SET.contains(&field.as_str())).cloned();
+        fits.then(|| (task.name, fields.collect()))
+    };
+    TASKS.iter().filter_map(task).collect()
+}
+
+/// The folder that a plan's file is in.
+fn folder(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+/// Files that a plan reads besides its own; none if it cannot be read, which its reader says.
+pub(super) fn reads(path: &Path) -> Vec<PathBuf> {
+    match load_plan(path, &tasks()) {
+        Ok(plan) => surface::reads(folder(path), &plan.surface),
+        Err(_) => Vec::new(),
+    }
+}
+
+impl Plan {
+    /// Opens a plan from its file, and its surface.
+    ///
+    /// # Errors
+    /// [`TaskError::Faults`] with all faults of the file; [`TaskError::Input`] of a surface that is not there, of keys that surface files do not
+    /// have, of fields with values of the wrong kind, and of figures that depend on the clock.
+    pub fn open(path: &Path) -> Result<Self, TaskError> {
+        let file = load_plan(path, &tasks())?;
+        let shown = path.display();
+        if let Some(pointer) = file.figures.iter().find(|pointer| is_of_the_clock(pointer)) {
+            let expected = "expected figures that are the same in every run";
+            return Err(TaskError::Input(format!(
+                "{shown}: figures: {expected}, found `{pointer}`, a time by the clock"
+            )));
+        }
+        let (ground, surface_sha256) = Ground::of(folder(path), &file.surface)?;
+        let kept = json!({
+            "task": file.task, "surface": surface_sha256, "ask": file.ask, "shard": file.shard, "designs": file.designs,
+            "figures": file.figures,
+        });
+        let plan = Self { hash: of_bytes(canonical(&kept).as_bytes()), file, ground, surface_sha256 };
+        for varied in plan.file.designs.varied() {
+            plan.check(varied).map_err(|found| match found {
+                TaskError::Input(text) => TaskError::Input(format!("{shown}: {varied}: {text}")),
+                other => other,
+            })?;
+        }
+        plan.check_ask(0).map_err(|error| TaskError::Input(format!("{shown}: {error}")))?;
+        Ok(plan)
+    }
+
+    /// Checks that what varies is known, in the first design that has it.
+    fn check(&self, varied: &Varied) -> Result<(), TaskError> {
+        let name = varied.to_string();
+        let first = (0..self.len()).find(|index| self.design(*index).values.get(&name).is_some());
+        let index = first.unwrap_or_default();
+        match varied {
+            Varied::Ask(_) => self.check_ask(index),
+            Varied::Surface(key) => self.check_key(key, index),
+        }
+    }
+
+    /// Checks that the request of a design has fields of the right kinds.
+    fn check_ask(&self, index: usize) -> Result<(), TaskError> {
+        (self.task()?.check)(self.ask(&self.design(index))?)
+    }
+
+    /// Checks that surface files have a key; values that they cannot have are left to the designs.
+    fn check_key(&self, key: &str, index: usize) -> Result<(), TaskError> {
+        let surface = self.surface(index)?;
+        // What else a surface may be refused for, as a library whose keys cannot be set, is the task's to say.
+        let Err(TaskError::Faults(faults)) = surface.load() else { return Ok(()) };
+        let unknown = faults.faults().iter().find(|fault| {
+            let own = key
+                .strip_prefix(&fault.key)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']));
+            own && fault.found.starts_with("an unknown key")
+        });
+        match unknown {
+            Some(fault) => Err(TaskError::Input(fault.to_string())),
+            None => Ok(()),
+        }
+    }
+
+    /// The surface of a design.
+    fn surface(&self, index: usize) -> Result<SurfaceAsk, TaskError> {
+        let mut ask = self.ask(&self.design(index))?;
+        serde_json::from_value(ask["surface"].take()).map_err(TaskError::work)
+    }
+
+    /// Number of designs.
+    pub fn len(&self) -> usize {
+        self.file.designs.len()
+    }
+
+    /// Whether there is no design; a plan that could be opened has at least one.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of shards.
+    pub fn shards(&self) -> usize {
+        self.len().div_ceil(self.file.shard)
+    }
+
+    /// Indices of the designs of a shard, which is counted from 0.
+    pub fn shard(&self, shard: usize) -> Range<usize> {
+        let end = |shard: usize| shard.saturating_mul(self.file.shard).min(self.len());
+        end(shard)..end(shard.saturating_add(1))
+    }
+
+    /// The design with an index, counted from 0.
+    pub fn design(&self, index: usize) -> Design {
+        Design::of(&self.file, &self.surface_sha256, index)
+    }
+
+    /// The request of a design: what all designs have, its own values, and its surface.
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] of a key or a field that its values cannot be put under.
+    pub fn ask(&self, design: &Design) -> Result<Value, TaskError> {
+        design.ask(&self.file, &self.ground)
+    }
+
+    /// The task that designs are given to.
+    ///
+    /// # Errors
+    /// [`unknown`], which no plan that could be opened is refused with.
+    pub(super) fn task(&self) -> Result<&'static Command, TaskError> {
+        find(&self.file.task).ok_or_else(|| unknown(&self.file.task, &[]))
+    }
+
+    /// SHA-256, in hexadecimal digits, of all that the table follows from.
+    pub fn hash(&self) -> &str {
+        &self.hash
+    }
+
+    /// SHA-256 of the surface as the plan names it, in hexadecimal digits.
+    pub(super) fn surface_sha256(&self) -> &str {
+        &self.surface_sha256
+    }
+
+    /// The plan as its file has it.
+    pub fn file(&self) -> &PlanFile {
+        &self.file
+    }
+
+    /// What the modes of the first design cost on this machine; `None` where that is not known.
+    pub(super) fn estimate(&self) -> Option<Estimate> {
+        let surface = self.surface(0).ok()?.load().ok()?;
+        let cost = machine::memory().during(|| model_cost(&surface, None, &[]));
+        cost.ok().map(Estimate::of)
+    }
+}

@@ -1,0 +1,178 @@
+//! Computes the rows of a sweep, or a piece of them, and the table once all are there.
+
+use super::folder::Folder;
+use super::table::TABLE;
+use super::tally::Tally;
+use super::{Ask, Piece, Plan, Report, Row, Workers, figure, supervised, table};
+use crate::figures::Columns;
+use crate::{Progress, Record, TaskError, figures, go_on};
+use std::path::Path;
+use unripple::act::Note;
+use unripple_store::write_file;
+
+/// Name of the report in the folder.
+const REPORT: &str = "sweep.json";
+
+/// Gives the designs of a plan to its task, shard after shard, in this process, and writes the table once all rows are there. What is in the folder
+/// already is not computed again, so that a sweep goes on after any kill; a design that fails is a row with its error.
+///
+/// ```
+/// use unripple_tasks::{Silent, sweep};
+///
+/// let folder = std::env::temp_dir().join(format!("unripple-doc-sweep-{}", std::process::id()));
+/// std::fs::create_dir_all(&folder)?;
+/// let text = r#"
+///     format = 1
+///     task = "modes"
+///     surface = "hudin-2012"
+///     ask = { top_hz = 200 }
+///     figures = ["/count", "/frequencies_hz/0"]
+///     [[axis]]
+///     key = "sheet.tension_n_per_m"
+///     values = [150, 200, -1]
+/// "#;
+/// std::fs::write(folder.join("plan.toml"), text)?;
+/// let ask = sweep::Ask {
+///     plan: folder.join("plan.toml"),
+///     output: Some(folder.join("out")),
+///     no_figures: true,
+///     ..sweep::Ask::default()
+/// };
+/// let report = sweep::run(&ask, &mut Silent)?;
+/// assert_eq!((report.done, report.failed, report.failures[0].index), (3, 1, 2));
+/// let table = std::fs::read_to_string(folder.join("out/table.csv"))?;
+/// assert!(table.starts_with("index,surface:sheet.tension_n_per_m,hash,version,/count,/frequencies_hz/0,error\r\n0,150,"));
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Those of [`Plan::open`]; [`TaskError::Ask`] of options that make no sense; [`TaskError::Input`] of a folder with rows of another plan;
+/// [`TaskError::Work`] of one with other things in it, and of what cannot be written; [`TaskError::Cancelled`].
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    run_with(ask, None, progress)
+}
+
+/// As [`run`], with processes that compute the shards; one shard alone is computed in this process.
+///
+/// # Errors
+/// Those of [`run`]; [`TaskError::Work`] of a process that cannot be started, or that ends with an error of its own.
+pub fn run_with(
+    ask: &Ask,
+    workers: Option<&Workers<'_>>,
+    progress: &mut dyn Progress,
+) -> Result<Report, TaskError> {
+    go_on(progress)?;
+    let columns = Columns::of(ask.columns)?;
+    let plan = Plan::open(&ask.plan)?;
+    if ask.count {
+        return Ok(Report::counted(&plan));
+    }
+    if let Some(shard) = ask.shard.filter(|shard| *shard >= plan.shards()) {
+        return Err(TaskError::ask("shard", format!("0 to {}", plan.shards() - 1), shard));
+    }
+    // Before the work, as of every task: files may change meanwhile.
+    let record = Record::of(ask)?;
+    let folder = Folder::open(&plan, output(ask)?)?;
+    match (ask.shard, workers) {
+        (Some(shard), _) => one(&folder, shard, progress)?,
+        (None, Some(workers)) => supervised::run(workers, &folder, progress)?,
+        (None, None) => all(&folder, progress)?,
+    }
+    let missing = folder.missing()?;
+    let mut report = match missing.is_empty() {
+        true => finished(&folder, (!ask.no_figures).then_some(columns), progress)?,
+        false => {
+            let mut tally = Tally::default();
+            let rows = ask.shard.map_or_else(|| Ok(Vec::new()), |shard| folder.rows(shard))?;
+            rows.iter().for_each(|row| tally.take(row));
+            let designs = missing.iter().map(|shard| plan.shard(*shard).len()).sum();
+            Report::of(&plan, &tally, designs)
+        }
+    };
+    report.shard = ask.shard;
+    if report.missing == 0 {
+        write_file(folder.file(REPORT), record.json(&report)?.as_bytes())?;
+        progress.tell(&format!("wrote {}", folder.file(TABLE).display()));
+    }
+    Ok(report)
+}
+
+/// Computes a piece of a sweep: what one of several processes does. The table is left to the process that started them.
+///
+/// # Errors
+/// Those of [`run`].
+pub fn compute(ask: &Ask, piece: Piece, progress: &mut dyn Progress) -> Result<(), TaskError> {
+    go_on(progress)?;
+    let plan = Plan::open(&ask.plan)?;
+    let folder = Folder::open(&plan, output(ask)?)?;
+    match piece {
+        Piece::Every { first, step } => {
+            (first..plan.shards()).step_by(step.max(1)).try_for_each(|shard| one(&folder, shard, progress))
+        }
+        Piece::Shard(shard) if shard < plan.shards() => one(&folder, shard, progress),
+        Piece::Design(index) if index < plan.len() => folder.put_row(&Row::computed(&plan, index, progress)?),
+        Piece::Shard(_) | Piece::Design(_) => {
+            let expected = format!("one of {} shards or {} designs", plan.shards(), plan.len());
+            Err(TaskError::ask("piece", expected, piece))
+        }
+    }
+}
+
+/// The folder that rows go to.
+fn output(ask: &Ask) -> Result<&Path, TaskError> {
+    ask.output.as_deref().ok_or_else(|| TaskError::ask("output", "a folder for the rows", "none"))
+}
+
+/// Computes a shard, unless it is done.
+fn one(folder: &Folder, shard: usize, progress: &mut dyn Progress) -> Result<(), TaskError> {
+    if folder.has(shard) { Ok(()) } else { folder.compute(shard, progress) }
+}
+
+/// Computes all missing shards, one after the other.
+fn all(folder: &Folder, progress: &mut dyn Progress) -> Result<(), TaskError> {
+    let (missing, shards) = (folder.missing()?, folder.plan.shards());
+    progress.stage("designs");
+    for (at, shard) in missing.iter().enumerate() {
+        progress.done((shards - missing.len() + at) as f64 / shards as f64);
+        one(folder, *shard, progress)?;
+    }
+    Ok(())
+}
+
+/// Writes the table of all rows, and figures unless they are not wanted.
+fn finished(
+    folder: &Folder,
+    columns: Option<Columns>,
+    progress: &mut dyn Progress,
+) -> Result<Report, TaskError> {
+    progress.stage("table");
+    let mut tally = Tally::default();
+    folder.each(&mut |row| {
+        tally.take(&row);
+        go_on(progress)
+    })?;
+    table::write(folder, &tally)?;
+    let mut report = Report::of(folder.plan, &tally, 0);
+    report.files.push(TABLE.into());
+    if let Some(columns) = columns {
+        progress.stage("figures");
+        match drawn(folder, &report, columns) {
+            Ok(files) => report.files.extend(files),
+            // The table is what was asked for; some plans have nothing to draw.
+            Err(error) => report.notes.push(Note { topic: "figures", text: error.to_string() }),
+        }
+    }
+    Ok(report)
+}
+
+/// Draws the figures, and returns the names of their files.
+fn drawn(folder: &Folder, report: &Report, columns: Columns) -> Result<Vec<String>, TaskError> {
+    let figures = columns.fit(figure::all(folder, report)?);
+    let mut names = Vec::new();
+    for (name, bytes) in figures::files(&figures)? {
+        write_file(folder.file(&name), &bytes)?;
+        names.push(name);
+    }
+    Ok(names)
+}
