@@ -75,6 +75,16 @@ pub fn wish_when_input_ends() -> Result<(), CliError> {
     })
 }
 
+/// Ends the program when standard input ends, for a process that must not outlive whoever started it: a pipe ends when the last program that
+/// holds its other end is gone, also one that was killed.
+pub fn end_when_input_ends() -> Result<(), CliError> {
+    beside("input", || {
+        // Nobody reads what comes; what cannot be read has ended.
+        let _ = std::io::copy(&mut std::io::stdin().lock(), &mut std::io::sink());
+        end(signal_hook::consts::SIGTERM);
+    })
+}
+
 /// Ends the program as a signal would.
 fn end(signal: i32) -> ! {
     let _abandoned = unripple_store::abandon_all();

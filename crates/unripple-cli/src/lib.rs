@@ -38,6 +38,7 @@ mod reproduce;
 mod rerun;
 mod respond;
 mod shell;
+mod sweep;
 mod targets;
 mod view;
 mod waveforms;
@@ -108,6 +109,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Focus(options) => focus::run(options, common),
         Command::Compare(options) => compare::run(options, common),
         Command::Field(options) => field::run(options, common),
+        Command::Sweep(options) => sweep::run(options, common),
         Command::Play(options) => play::run(options, common),
         Command::View(options) => view::run(options, common),
         Command::Materials(options) => materials::run(options, common),

@@ -77,6 +77,7 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("share", "--share-percent"),
     ("mounting_m", "--mounting-mm"),
     ("tension", "--tension-percent"),
+    ("plan", "PLAN"),
     ("waveforms and path", "--waveform and --path"),
 ];
 

@@ -54,6 +54,12 @@ pub const PLACE: &str = "Examples:
   One more beside those of the file:
     unripple place my-surface.toml --count 1 --keep-all";
 
+/// For `sweep`: how many designs, all of them, and one shard.
+pub const SWEEP: &str = "Examples:
+  unripple sweep plan.toml --count
+  unripple sweep plan.toml --jobs 4 -o swept
+  unripple sweep plan.toml --shard 7 -o swept";
+
 /// For `field`: the drive that `focus` wrote.
 pub const FIELD: &str = "Examples:
   unripple field hudin-2012 --drive out/drive.wav

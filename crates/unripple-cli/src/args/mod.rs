@@ -11,6 +11,7 @@ mod place;
 mod play;
 mod rerun;
 mod shell;
+mod sweep;
 mod view;
 
 pub use calibrate::{CalibrateOptions, DeviceOptions};
@@ -24,6 +25,7 @@ pub use play::{DoctorOptions, PlayOptions};
 pub use rerun::RerunOptions;
 pub use shell::{CacheOptions, CompletionsOptions, ManOptions};
 use std::path::PathBuf;
+pub use sweep::SweepOptions;
 pub use view::ViewOptions;
 
 /// Waves that meet under a fingertip: design, simulate and focus a reverberant touch surface.
@@ -87,6 +89,8 @@ pub enum Command {
     Compare(CompareOptions),
     /// Simulate what a given drive does to a surface.
     Field(FieldOptions),
+    /// Give many designs to a command: a grid, Sobol points or a list over keys and options, in one table, by processes that may be killed.
+    Sweep(SweepOptions),
     /// Measure impulse responses through a device, as a library that `focus` and `field` accept in place of a surface.
     Calibrate(CalibrateOptions),
     /// Export a library of responses as WAV files or as one SOFA file.
