@@ -66,7 +66,9 @@ pub use listing::MARKER;
 pub use load::{load_surface, load_surface_with, surface_files};
 pub use names::nearest;
 pub use output::{Committed, OutputDir};
-pub use plans::{Axis, AxisValues, Designs, MOST_DESIGNS, PlanFile, PlanTask, Varied, load_plan, parse_plan};
+pub use plans::{
+    Axis, AxisValues, Designs, MOST_DESIGNS, PlanFile, PlanTask, Varied, load_plan, parse_plan, plan_surface,
+};
 pub use set::set_keys;
 pub use sofa::{SofaAbout, date};
 pub use surface::{parse_surface, parse_surface_with, to_toml};

@@ -1,7 +1,6 @@
 //! One axis of a plan: what varies along it, and its values.
 
-use super::designs::MOST_DESIGNS;
-use super::value::{ANY, flag, json};
+use super::value::{ANY, MOST_DESIGNS, flag, json};
 use super::varied::{self, Varied};
 use crate::surface::reader::{Entry, Faults, Section};
 use serde::Serialize;

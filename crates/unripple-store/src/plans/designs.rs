@@ -1,15 +1,12 @@
 //! The designs of a plan: a grid, Sobol points or a list.
 
 use super::axis::{self, Axis};
-use super::value::json;
+use super::value::{MOST_DESIGNS, json};
 use super::varied::{Varied, unknown};
 use crate::surface::reader::{Entry, Faults, Section};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeSet;
-
-/// Most designs of a plan: of a second each, those of four months.
-pub const MOST_DESIGNS: usize = 10_000_000;
 
 /// Most Sobol points: as many as the generator's sequence has.
 const MOST_POINTS: usize = 1 << 16;

@@ -6,14 +6,15 @@ mod value;
 mod varied;
 
 pub use axis::{Axis, AxisValues};
-pub use designs::{Designs, MOST_DESIGNS};
+pub use designs::Designs;
+pub use value::MOST_DESIGNS;
 pub use varied::Varied;
 
+use crate::StoreError;
 use crate::document;
 use crate::fault::FileFaults;
 use crate::file::read_text;
 use crate::surface::reader::{Entry, Faults, Section};
-use crate::{StoreError, names::nearest};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -93,6 +94,12 @@ pub fn load_plan(path: impl AsRef<Path>, tasks: &[PlanTask]) -> Result<PlanFile,
     Ok(parse_plan(&read_text(path)?, &path.display().to_string(), tasks)?)
 }
 
+/// The surface that the plan in a file names, whatever else the file says; `None` where that cannot be told.
+pub fn plan_surface(path: impl AsRef<Path>) -> Option<String> {
+    let table: toml::Table = read_text(path.as_ref()).ok()?.parse().ok()?;
+    table.get("surface")?.as_str().map(str::to_owned)
+}
+
 fn read(root: &Section, name: Option<String>, tasks: &[PlanTask], faults: &mut Faults) -> Option<PlanFile> {
     let choices: Vec<(&'static str, &PlanTask)> = tasks.iter().map(|task| (task.0, task)).collect();
     let expected = || choices.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
@@ -154,9 +161,4 @@ fn figures(entry: &Entry, faults: &mut Faults) -> Option<Vec<String>> {
         found.push(pointer);
     }
     Some(found)
-}
-
-/// The name among `known` that is nearest to one that is not, in quotes.
-fn near(found: &str, known: &[&str]) -> Option<String> {
-    nearest(found, known.iter().copied()).map(|name| format!("\"{name}\""))
 }

@@ -1,9 +1,18 @@
 //! Values of plans: TOML as JSON.
 
+use crate::names::nearest;
 use crate::surface::range::Limits;
 use crate::surface::reader::{Entry, Faults};
 use serde_json::{Map, Number, Value};
 use toml::de::DeValue;
+
+/// Most designs of a plan: of a second each, those of four months.
+pub const MOST_DESIGNS: usize = 10_000_000;
+
+/// The name among `known` that is nearest to one that is not, in quotes.
+pub(super) fn near(found: &str, known: &[&str]) -> Option<String> {
+    nearest(found, known.iter().copied()).map(|name| format!("\"{name}\""))
+}
 
 /// Any number that leaves room for differences and ratios.
 pub(super) const ANY: Limits = Limits::new("", 0, -1e100, 1e100);

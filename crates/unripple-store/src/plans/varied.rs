@@ -1,6 +1,6 @@
 //! What varies from one design of a plan to the next: a key of the surface file, or a field of the task's request.
 
-use super::near;
+use super::value::near;
 use crate::surface::reader::{Entry, Faults};
 use serde::{Serialize, Serializer};
 use std::fmt;

@@ -7,6 +7,9 @@ use std::path::PathBuf;
 use unripple::focus::Method;
 use unripple_placement::Objective;
 
+/// Targets on which layouts are evaluated, for each that they are placed for.
+pub(super) const TESTED: usize = 3;
+
 /// Which actuators to place, where they may be, and what for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]

@@ -1,6 +1,7 @@
 //! What a search for places costs, before anything is solved.
 
 use super::Ask;
+use super::ask::TESTED;
 use crate::Progress;
 use crate::cost;
 use unripple::act::model_cost;
@@ -29,7 +30,7 @@ pub(super) fn announce(ask: &Ask, surface: &Surface, places: usize, progress: &m
 fn search(ask: &Ask, surface: &Surface, places: usize) -> Cost {
     let modes = expected_modes(surface, surface.emission.band[1]);
     let trained = if ask.points_m.is_empty() { ask.targets } else { ask.points_m.len() } as f64;
-    let tested = if ask.points_m.is_empty() { super::setting::TESTED as f64 * trained } else { trained };
+    let tested = if ask.points_m.is_empty() { TESTED as f64 * trained } else { trained };
     let nodes = if ask.mounting_m > 0.0 { NODES } else { 1 };
     let models = if ask.tension > 0.0 { 3.0 } else { 1.0 };
     let columns = (nodes * places) as f64 * trained + (EVALUATED * ask.count) as f64 * tested;

@@ -2,7 +2,6 @@
 
 use super::ByMethod;
 use super::placed::{Best, Build, Layout, More, Number, Random, Restarts};
-use super::text;
 use serde::Serialize;
 use unripple::act::Note;
 
@@ -64,31 +63,4 @@ pub struct Report {
     pub notes: Vec<Note>,
     /// Files in the output folder, beside the surface and the report.
     pub files: Vec<String>,
-}
-
-impl Report {
-    /// The report as Markdown, with its figures.
-    pub(super) fn markdown(&self) -> String {
-        let mut all = format!(
-            "# {}: {} actuators placed\n\n```text\n{}```\n",
-            self.surface,
-            self.count,
-            text::of(self)
-        );
-        for (file, what) in [
-            ("places.png", "The layout, and what one actuator more would add at each place"),
-            ("numbers.png", "Contrast against the number of actuators"),
-        ] {
-            if self.files.iter().any(|name| name == file) {
-                all += &format!("\n![{what}]({file})\n");
-            }
-        }
-        all
-    }
-}
-
-impl crate::Report for Report {
-    fn text(&self) -> String {
-        text::of(self)
-    }
 }

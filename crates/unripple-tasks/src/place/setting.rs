@@ -1,5 +1,6 @@
 //! What a search for places works on: the surface without the actuators that are placed, the places, the targets.
 
+use super::ask::TESTED;
 use super::refused::refused;
 use super::{Ask, cost};
 use crate::numbers::above_zero;
@@ -14,9 +15,6 @@ use unripple_placement::{Aim, Plant, Rules, spread};
 /// Share of the shortest wavelength that is the default spacing of places: shapes change little between two of them, and the polish moves
 /// actuators further.
 const PITCH: f64 = 1.0 / 7.0;
-
-/// Targets on which layouts are evaluated, for each that they are placed for.
-pub(super) const TESTED: usize = 3;
 
 /// Largest number of actuators, and of targets, of a request. More are taken for a mistake.
 const MOST: usize = 1000;

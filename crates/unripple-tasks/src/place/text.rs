@@ -7,8 +7,31 @@ use std::fmt::Write;
 /// Rows of the table of numbers of actuators that are printed: all are in the JSON.
 const ROWS: usize = 12;
 
+impl Report {
+    /// The report as Markdown, with its figures.
+    pub(super) fn markdown(&self) -> String {
+        let mut all =
+            format!("# {}: {} actuators placed\n\n```text\n{}```\n", self.surface, self.count, of(self));
+        for (file, what) in [
+            ("places.png", "The layout, and what one actuator more would add at each place"),
+            ("numbers.png", "Contrast against the number of actuators"),
+        ] {
+            if self.files.iter().any(|name| name == file) {
+                all += &format!("\n![{what}]({file})\n");
+            }
+        }
+        all
+    }
+}
+
+impl crate::Report for Report {
+    fn text(&self) -> String {
+        of(self)
+    }
+}
+
 /// The report as lines of text.
-pub(super) fn of(report: &Report) -> String {
+fn of(report: &Report) -> String {
     let mut text = String::new();
     let pitch = report.pitch_m.map_or(String::new(), |pitch| format!(", {:.2} mm apart", 1e3 * pitch));
     let kept = match report.kept.as_slice() {

@@ -158,9 +158,9 @@ fn map(y: &Along, x: &Along, extreme: &Extreme, rows: &[Row]) -> Panel {
         rows: upwards.iter().rev().map(|(_, place)| y.text(*place)).collect(),
         values: upwards.iter().rev().flat_map(|(row, _)| row.iter().copied()).collect(),
         x: axis,
-        label: y.label.clone(),
+        label: last(&y.label, '.', 1),
         colours: Colours {
-            title: extreme.figure.clone(),
+            title: last(&extreme.figure, '/', 2),
             map: ColourMap::Sequential,
             low: Some(extreme.least),
             high: Some(extreme.greatest),
@@ -169,6 +169,12 @@ fn map(y: &Along, x: &Along, extreme: &Extreme, rows: &[Row]) -> Panel {
         ..Cells::default()
     }
     .into()
+}
+
+/// The last steps of a path, which name what is drawn where there is no room for all.
+fn last(path: &str, between: char, steps: usize) -> String {
+    let all: Vec<&str> = path.split(between).filter(|step| !step.is_empty()).collect();
+    all[all.len().saturating_sub(steps)..].join(&between.to_string())
 }
 
 /// Edges of the columns of a map, halfway between the values of its axis; values that are texts or in no order stand side by side.

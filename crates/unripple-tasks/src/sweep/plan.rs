@@ -2,14 +2,14 @@
 
 use super::design::{Design, canonical};
 use super::flat::is_of_the_clock;
-use super::surface::{self, Ground};
+use super::surface::{Ground, folder};
 use crate::commands::{Command, TASKS, find, unknown};
 use crate::cost::Estimate;
 use crate::record::of_bytes;
 use crate::{SurfaceAsk, TaskError, machine};
 use serde_json::{Value, json};
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use unripple::act::model_cost;
 use unripple_store::{PlanFile, PlanTask, Varied, load_plan};
 
@@ -66,19 +66,6 @@ fn tasks() -> Vec<PlanTask> {
         fits.then(|| (task.name, fields.collect()))
     };
     TASKS.iter().filter_map(task).collect()
-}
-
-/// The folder that a plan's file is in.
-fn folder(path: &Path) -> &Path {
-    path.parent().unwrap_or(Path::new(""))
-}
-
-/// Files that a plan reads besides its own; none if it cannot be read, which its reader says.
-pub(super) fn reads(path: &Path) -> Vec<PathBuf> {
-    match load_plan(path, &tasks()) {
-        Ok(plan) => surface::reads(folder(path), &plan.surface),
-        Err(_) => Vec::new(),
-    }
 }
 
 impl Plan {

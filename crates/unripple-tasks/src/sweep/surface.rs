@@ -3,7 +3,7 @@
 use crate::record::{of_bytes, of_path};
 use crate::{SurfaceAsk, TaskError};
 use std::path::{Path, PathBuf};
-use unripple_store::{BUILTINS, LARGEST_TEXT, Library, set_keys, surface_files};
+use unripple_store::{BUILTINS, LARGEST_TEXT, Library, plan_surface, set_keys, surface_files};
 
 /// The surface that a plan names.
 #[derive(Clone, Debug)]
@@ -66,8 +66,18 @@ impl Ground {
     }
 }
 
+/// The folder that a plan's file is in.
+pub(super) fn folder(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+/// Files that the plan in a file reads besides its own; none if it cannot be read, which its reader says.
+pub(super) fn reads(plan: &Path) -> Vec<PathBuf> {
+    plan_surface(plan).map_or_else(Vec::new, |surface| of_surface(folder(plan), &surface))
+}
+
 /// Files that are read for the surface that a plan in this folder names; none for a built-in surface.
-pub(super) fn reads(folder: &Path, surface: &str) -> Vec<PathBuf> {
+fn of_surface(folder: &Path, surface: &str) -> Vec<PathBuf> {
     if BUILTINS.iter().any(|builtin| builtin.name == surface) {
         return Vec::new();
     }
