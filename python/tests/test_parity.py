@@ -19,8 +19,9 @@ _OF_THE_TERMINAL = {"json", "verbose", "quiet", "help", "version"}
 #: Commands of the command line that are no tasks: those of the shell and of what the machine keeps, and the page, which is `Surface.view`.
 _NO_TASKS = {"view", "cache", "completions", "man", "help"}
 
-#: Options of the command line that its command refuses: those of other targets than points and shapes.
-_REFUSED = {"compare": {"waveform", "silent", "path", "speed_mm_s", "level_mm_s"}}
+#: Options of the command line that its command refuses, those of other targets than points and shapes; and the number of processes, since
+#: Python's own process computes.
+_REFUSED = {"compare": {"waveform", "silent", "path", "speed_mm_s", "level_mm_s"}, "sweep": {"jobs"}}
 
 #: The tasks that the command line has as one.
 _OF_FOCUS = ("focus", "waveform", "stroke")

@@ -41,6 +41,13 @@ def _focused(**options: Any) -> ur.Report:
     return report
 
 
+def _plan(folder: Path) -> None:
+    """A plan of three designs, one of which fails."""
+    lines = ["format = 1", 'task = "modes"', 'surface = "hudin-2012"', "ask = { top_hz = 250 }"]
+    lines += ["[[axis]]", 'key = "sheet.tension_n_per_m"', "values = [150, 200.5, -1]"]
+    (folder / "plan.toml").write_text("\n".join(lines), encoding="utf-8")
+
+
 #: Arguments of the command line, what Python does, and what both need before. Both run in folders of their own, by the same names.
 CASES: dict[str, tuple[list[str], Callable[[], ur.Report], Before | None]] = {
     "check": (["check", "glass-plate"], lambda: ur.check("glass-plate"), None),
@@ -158,6 +165,11 @@ CASES: dict[str, tuple[list[str], Callable[[], ur.Report], Before | None]] = {
         ),
         _respond,
     ),
+    "sweep": (
+        ["sweep", "plan.toml", "--no-figures", "-o", "swept"],
+        lambda: ur.sweep("plan.toml", "swept", no_figures=True),
+        _plan,
+    ),
     "export": (["export", "film", "-o", "wav"], lambda: ur.export("film", "wav"), _respond),
     "calibrate": (
         ["calibrate", *_FILM, "--unknowns", "3", "--at", "62,90.1", "--sweep-ms", "100", "--response-ms", "50.3"]
@@ -210,7 +222,7 @@ def test_the_report_is_the_same(
     assert _comparable(found) == _comparable(typed)
     assert found["run"]["command"] == typed["run"]["command"]
     # What was asked is the same, too, but for how the surface and the files were named.
-    apart = ("surface", "drive", "library", "output")
+    apart = ("surface", "drive", "library", "plan", "output")
     asked = [{k: v for k, v in report["run"]["ask"].items() if k not in apart} for report in (found, typed)]
     assert asked[0] == asked[1]
 

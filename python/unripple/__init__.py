@@ -24,7 +24,20 @@ from unripple._progress import set_progress, set_threads
 from unripple._report import Report
 from unripple._responses import Responses
 from unripple._surface import Surface
-from unripple._tasks import check, compare, design, doctor, drift, modes, place, play, reproduce, rerun, run
+from unripple._tasks import (
+    check,
+    compare,
+    design,
+    doctor,
+    drift,
+    modes,
+    place,
+    play,
+    reproduce,
+    rerun,
+    run,
+    sweep,
+)
 from unripple._view import View
 from unripple._virtual import VirtualSurface
 
@@ -78,6 +91,7 @@ __all__ = [
     "set_progress",
     "set_threads",
     "stroke",
+    "sweep",
     "waveform",
 ]
 

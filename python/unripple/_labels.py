@@ -29,6 +29,7 @@ _TABLES = (
     "materials",
     "devices",
     "pings",
+    "extremes",
     "faults",
     "actuators",
     "sections",

@@ -277,6 +277,7 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         *_same(flag, "full_limit", "follow_tension", "real_time"),
         Option("drift_percent", "drift", percent),
     ),
+    "sweep": (*_same(path, "plan"), *_same(count, "shard"), *_same(flag, "count"), *_FIGURES),
     "reproduce": (*_same(path, "output"), *_same(count, "placements")),
     "rerun": _same(path, "report", "output"),
 }

@@ -280,6 +280,65 @@ def reproduce(output: _types.Path | None = None, **options: Unpack[_types.Reprod
     return _call.report("reproduce", options, output=output)
 
 
+def sweep(
+    plan: _types.Path, output: _types.Path | None = None, **options: Unpack[_types.SweepOptions]
+) -> Report:
+    """Give the designs of a plan to a task, and write their figures into one table.
+
+    Designs are computed in this process, one after the other, or with `client` by the workers of Dask; the command line computes them by
+    several processes. What is in the folder already is not computed again.
+
+    Parameters
+    ----------
+    plan
+        A plan, in TOML.
+    output
+        Folder for rows, table (``table.csv``), report and figures; needed unless `count` is true.
+    shard
+        The only shard to compute, counted from 0; by default all that are missing.
+    count
+        Count designs and shards, and compute nothing.
+    no_figures, columns
+        As for :meth:`Surface.focus`.
+    client
+        A ``distributed.Client``, whose workers compute the shards that are missing, on `threads` threads each (by default one); the table is
+        made in this process.
+    shared
+        With `client`: whether workers have the folders of the plan and of `output` by the same paths as this process, as by default. If not,
+        the files of the plan are sent to them, and rows are sent back.
+
+    Returns
+    -------
+    Report
+        With the numbers of designs that are ``done``, ``failed`` and ``missing``, and the ``extremes`` of each figure.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> import unripple as ur
+    >>> plan = '''
+    ... format = 1
+    ... task = "modes"
+    ... surface = "hudin-2012"
+    ... ask = { top_hz = 200 }
+    ... [[axis]]
+    ... key = "sheet.tension_n_per_m"
+    ... values = [150, 200]
+    ... '''
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = pathlib.Path(folder, "plan.toml")
+    ...     _ = file.write_text(plan)
+    ...     report = ur.sweep(file, pathlib.Path(folder, "out"), no_figures=True)
+    >>> report.done, report.failed
+    (2, 0)
+    """
+    if options.get("client") is None and options.get("shared") is None:
+        return _call.report("sweep", options, plan=plan, output=output)
+    from unripple import _engine
+
+    return _engine.sweep(plan, output, options)
+
+
 def rerun(
     report: _types.Path, output: _types.Path | None = None, **options: Unpack[_types.CallOptions]
 ) -> Report:

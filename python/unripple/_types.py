@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, TypeAlias, TypedDict
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,9 @@ import numpy.typing as npt
 from unripple._drive import Drive
 from unripple._progress import ProgressCallback
 from unripple._surface import Surface
+
+if TYPE_CHECKING:
+    import distributed
 
 #: Path of a file or folder.
 Path: TypeAlias = str | os.PathLike[str]
@@ -349,6 +352,17 @@ class PlayOptions(DeviceOptions, total=False):
     drift_percent: float | None
     drift: float | None
     keep_drive: Path | None
+
+
+class SweepOptions(CallOptions, total=False):
+    """Options of `sweep`."""
+
+    shard: int | None
+    count: bool | None
+    no_figures: bool | None
+    columns: int | None
+    client: distributed.Client | None
+    shared: bool | None
 
 
 class ReproduceOptions(CallOptions, total=False):
