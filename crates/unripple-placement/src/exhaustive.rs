@@ -1,10 +1,13 @@
 //! The best layout of all, by looking at every one: a certificate where there are few.
 
-use crate::{Chosen, Found, Search};
+use crate::{Chosen, Found, Objective, Search};
 use rayon::prelude::*;
 
 /// Largest number of contrasts that are computed for a certificate: some seconds. With ten times as many, a search would mostly wait for it.
 const MOST: f64 = 2e9;
+
+/// Time to find a quantile over that to find a mean.
+const SORTED: f64 = 16.0;
 
 impl Search<'_> {
     /// Number of layouts of `count` actuators, least distances aside.
@@ -16,10 +19,13 @@ impl Search<'_> {
 
     /// The best of all layouts of `count` actuators beside those that stay; `None` if there are too many to look at, or none.
     pub fn best_of_all(&self, count: usize) -> Option<Found> {
-        if count == 0 || self.layouts(count) * self.forms.cases() as f64 > MOST {
+        // Quantiles are found by sorting.
+        let most = if matches!(self.objective, Objective::Quantile(_)) { MOST / SORTED } else { MOST };
+        if count == 0 || self.layouts(count) * self.forms.cases() as f64 > most {
             return None;
         }
-        let first = self.kept..self.at.len();
+        // After a later one there are not enough places left.
+        let first = self.kept..(self.at.len() + 1).saturating_sub(count);
         let best = first.into_par_iter().map(|a| {
             let mut set: Vec<usize> = (0..self.kept).collect();
             if !self.is_free(&set, a) {
@@ -43,7 +49,8 @@ impl Search<'_> {
             return Some(Found { score: now.score(self.objective), actuators: now.actuators().to_vec() });
         }
         let after = now.actuators().last().map_or(self.kept, |last| last + 1);
-        let rest = (after..self.at.len()).filter(|b| self.is_free(now.actuators(), *b));
+        let rest =
+            (after..(self.at.len() + 1).saturating_sub(more)).filter(|b| self.is_free(now.actuators(), *b));
         let with = |b: usize| now.actuators().iter().copied().chain([b]).collect::<Vec<_>>();
         if more == 1 {
             let scores = now.with_each(self.objective);

@@ -80,9 +80,10 @@ impl Forms {
             let rate = plant.surface().emission.rate;
             let legal = window > 0.0 && window * rate <= MOST_SAMPLES && window_samples(window, rate) > 0;
             require("window (s)", legal, "a positive number, of a moderate size", window)?;
-            let inputs = Mounting::of(mounting).inputs(plant, places)?;
-            forms.actuators = inputs.actuators();
-            forms.fit(inputs.modes(), plants.len() * aims.len())?;
+            let mounting = Mounting::of(mounting);
+            forms.actuators = plant.kept() + places.len();
+            forms.fit(plant.modes(), plants.len() * aims.len(), mounting.nodes())?;
+            let inputs = mounting.inputs(plant, places)?;
             if inputs.modes() == 0 {
                 return Err(PlacementError::Empty);
             }
@@ -179,9 +180,12 @@ impl Forms {
     }
 
     /// Refuses what takes more memory than is allowed.
-    fn fit(&self, modes: usize, cases: usize) -> Result<(), PlacementError> {
+    fn fit(&self, modes: usize, cases: usize, nodes: usize) -> Result<(), PlacementError> {
         // States and what they are outside, and rows, all of which a search may need.
-        let bytes = 4.0 * (cases * self.actuators) as f64 * (2 * modes + self.actuators) as f64;
+        let forms = 4.0 * (cases * self.actuators) as f64 * (2 * modes + self.actuators) as f64;
+        // Input weights at all nodes, in double precision and once more while they are scaled.
+        let inputs = 8.0 * (modes * self.actuators * (nodes + 1)) as f64;
+        let bytes = forms + inputs;
         let memory = Memory::here();
         if memory.holds(bytes) {
             return Ok(());

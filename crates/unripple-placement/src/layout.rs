@@ -8,6 +8,8 @@ use unripple_core::Point;
 pub struct Reached {
     /// Contrast: peak velocity over the rms outside the focal disc at the focal instant; the mean over the models of the surface.
     pub contrast: f64,
+    /// The least contrast of all models of the surface.
+    pub least: f64,
     /// Energy of the drive for a peak velocity of 1 m/s, in squared units of drive times seconds; the mean over the models.
     pub energy: f64,
 }
@@ -89,15 +91,26 @@ fn of_targets(forms: &Forms, set: &[usize], targets: usize) -> Vec<Reached> {
         let cases = || (target..forms.cases()).step_by(targets);
         cases().map(share).sum::<f64>() / cases().map(|case| forms.weights()[case]).sum::<f64>()
     };
-    (0..targets)
-        .map(|target| Reached { contrast: mean(&contrasts, target), energy: mean(&energies, target) })
-        .collect()
+    let least = |target: usize| {
+        (target..forms.cases()).step_by(targets).map(|case| contrasts[case]).fold(f64::INFINITY, f64::min)
+    };
+    let reached = |target: usize| Reached {
+        contrast: mean(&contrasts, target),
+        least: least(target),
+        energy: mean(&energies, target),
+    };
+    (0..targets).map(reached).collect()
 }
 
 /// A figure of the contrasts at some targets, itself a contrast (ratio).
 pub fn figure(reached: &[Reached], aims: &[Aim], objective: Objective) -> f64 {
     let total: f64 = aims.iter().map(|aim| aim.weight).sum();
     let weights: Vec<f64> = aims.iter().map(|aim| aim.weight / total).collect();
-    let contrasts: Vec<f64> = reached.iter().map(|reached| reached.contrast).collect();
+    // The worst that may come about, in any model; means and quantiles are over the targets.
+    let of = |reached: &Reached| match objective {
+        Objective::Worst => reached.least,
+        Objective::Mean | Objective::Quantile(_) => reached.contrast,
+    };
+    let contrasts: Vec<f64> = reached.iter().map(of).collect();
     objective.of(&contrasts, &weights)
 }

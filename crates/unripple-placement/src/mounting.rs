@@ -28,6 +28,11 @@ impl Mounting {
         Self(if error == 0.0 { vec![[0.0; 2]] } else { nodes.to_vec() })
     }
 
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.0.len()
+    }
+
     /// The responses to the actuators that stay, which are where they are, and to one more at each of `places` (m), at every node. Where
     /// no actuator can be at a node, it is taken to be at the place itself.
     ///
@@ -54,11 +59,6 @@ impl Mounting {
 }
 
 impl Inputs {
-    /// Number of actuators.
-    pub fn actuators(&self) -> usize {
-        self.nominal.input.nrows()
-    }
-
     /// Number of modes.
     pub fn modes(&self) -> usize {
         self.nominal.poles.len()

@@ -52,6 +52,11 @@ impl Plant {
         &self.surface
     }
 
+    /// Number of modes of the sheet that were solved for, at least those that responses have.
+    pub fn modes(&self) -> usize {
+        self.modes.poles().len()
+    }
+
     /// An upper bound of the relative error of the sheet's natural frequencies, a ratio.
     pub fn frequency_error(&self) -> f64 {
         self.modes.error()

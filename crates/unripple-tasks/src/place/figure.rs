@@ -19,6 +19,7 @@ fn places(report: &Report, setting: &Setting, one_more: &[f64]) -> Figure {
     let mut markers: Vec<Marker> =
         report.after.actuators.iter().map(|a| marker(a.at_m, Symbol::Actuator, &a.name)).collect();
     markers.push(marker(report.after.worst_at_m, Symbol::Target, "worst"));
+    // Places beside an actuator are not free.
     let least = one_more.iter().copied().fold(f64::INFINITY, f64::min);
     let most = one_more.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let scatter = Scatter {

@@ -106,7 +106,7 @@ pub struct More {
 impl Layout {
     /// The contrasts of a layout at `aims`.
     pub(super) fn of(actuators: &[Actuator], reached: &[Reached], aims: &[Aim]) -> Self {
-        let least = (0..aims.len()).min_by(|a, b| reached[*a].contrast.total_cmp(&reached[*b].contrast));
+        let least = (0..aims.len()).min_by(|a, b| reached[*a].least.total_cmp(&reached[*b].least));
         let worst_at = least.map_or([0.0; 2], |i| [aims[i].at.x, aims[i].at.y]);
         let name = |a: &Actuator| Placed { name: a.name.clone(), at_m: [a.at.x, a.at.y] };
         Self {

@@ -69,6 +69,7 @@ impl Setting {
         let places = places(ask, &surface, &kind, &rules, pitch)?;
         let window_s = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
         window_s.map_or(Ok(()), |window| carries(&conditions(&surface), window, "window_s"))?;
+        bearable(ask, &surface, lambda_min)?;
         cost::announce(ask, &kept, places.len(), progress);
         progress.stage("modes");
         let plants = plants(ask, &kept, &kind)?;
@@ -140,17 +141,22 @@ impl Setting {
         (0..builds).map(|_| places.iter().map(&mut off).collect()).collect()
     }
 
-    /// The surface with the actuators that stay and others at `places`, which take the names of those taken away while these last.
+    /// The surface with others at `places` for the actuators that do not stay, in their channels and by their names while these last.
     pub fn built(&self, places: &[Point]) -> Surface {
-        let mut surface = self.plants[0].surface().clone();
-        let taken = self.moved().map(|actuator| actuator.name.clone());
+        let stay = &self.plants[0].surface().actuators;
+        let put = |name: String, at: &Point| Actuator { name, at: *at, ..self.kind.clone() };
+        let mut places = places.iter();
+        let mut actuators = Vec::new();
+        for own in &self.surface.actuators {
+            match stay.contains(own) {
+                true => actuators.push(own.clone()),
+                false => actuators.extend(places.next().map(|at| put(own.name.clone(), at))),
+            }
+        }
         let old: HashSet<&str> = self.surface.actuators.iter().map(|a| a.name.as_str()).collect();
         let new = (1..).map(|i| format!("a{i}")).filter(|name| !old.contains(name.as_str()));
-        let names = taken.chain(new);
-        let named =
-            places.iter().zip(names).map(|(at, name)| Actuator { name, at: *at, ..self.kind.clone() });
-        surface.actuators.extend(named);
-        surface
+        actuators.extend(places.zip(new).map(|(at, name)| put(name, at)));
+        Surface { actuators, ..self.surface.clone() }
     }
 }
 
@@ -207,6 +213,22 @@ fn numbers(ask: &Ask) -> Result<(), TaskError> {
     Ok(())
 }
 
+/// Share of the shortest wavelength up to which errors of places can be borne: four nodes tell nothing of larger ones.
+const BEARABLE: f64 = 0.25;
+
+/// Checks that the errors to be borne are such as the search can bear.
+fn bearable(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(), TaskError> {
+    let most = BEARABLE * lambda_min;
+    if ask.mounting_m > most {
+        let expected = format!("at most a quarter of the shortest wavelength, {:.3} mm", 1e3 * most);
+        return Err(TaskError::ask("mounting_m", expected, format!("{} mm", 1e3 * ask.mounting_m)));
+    }
+    if ask.tension > 0.0 && surface.sheet.tension == 0.0 {
+        return Err(TaskError::ask("tension", "0 on a sheet without tension", ask.tension));
+    }
+    Ok(())
+}
+
 /// The actuators that stay.
 fn kept(ask: &Ask, surface: &Surface) -> Result<Vec<Actuator>, TaskError> {
     ask.keep.iter().try_for_each(|name| named(surface, name, "keep").map(drop))?;
@@ -246,6 +268,9 @@ fn places(
     pitch: Option<f64>,
 ) -> Result<Vec<Point>, TaskError> {
     let outline = &surface.outline;
+    if let Some(at) = ask.places_m.iter().map(point).find(|at| !outline.contains(*at)) {
+        return Err(TaskError::ask("places_m", "points on the surface", format!("{at}, beyond its edge")));
+    }
     let mut places = match pitch {
         Some(pitch) => rules.grid(outline, pitch).map_err(refused)?,
         None => ask.places_m.iter().map(point).filter(|at| rules.allow(outline, *at)).collect(),
@@ -293,7 +318,7 @@ fn targets(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(Vec<Aim>, V
 fn plants(ask: &Ask, kept: &Surface, kind: &Actuator) -> Result<Vec<Plant>, TaskError> {
     // A uniform error by three points: Gauss-Legendre, of degree five.
     let points = [(-(0.6_f64.sqrt()), 5.0 / 18.0), (0.0, 4.0 / 9.0), (0.6_f64.sqrt(), 5.0 / 18.0)];
-    let all = if ask.tension == 0.0 || kept.sheet.tension == 0.0 { &points[1..2] } else { &points[..] };
+    let all = if ask.tension == 0.0 { &points[1..2] } else { &points[..] };
     let of = |(error, weight): &(f64, f64)| {
         let mut surface = kept.clone();
         surface.sheet.tension *= 1.0 + ask.tension * error;

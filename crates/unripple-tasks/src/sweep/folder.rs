@@ -146,7 +146,7 @@ impl<'p> Folder<'p> {
     pub fn row(&self, index: usize) -> Result<Option<Row>, TaskError> {
         let path = self.row_file(index);
         let Ok(text) = fs::read_to_string(&path) else { return Ok(None) };
-        Ok(rows_of(&path, &text, index..index + 1)?.pop())
+        Ok(rows_of(self.plan, &path, &text, index..index + 1)?.pop())
     }
 
     /// The rows of a shard that is done.
@@ -157,7 +157,7 @@ impl<'p> Folder<'p> {
         let path = self.part(shard);
         let text = fs::read_to_string(&path)
             .map_err(|reason| TaskError::from(StoreError::Read { path: path.clone(), reason }))?;
-        rows_of(&path, &text, self.plan.shard(shard))
+        rows_of(self.plan, &path, &text, self.plan.shard(shard))
     }
 
     /// Shows `take` all rows in order, once all shards are done.
@@ -170,7 +170,7 @@ impl<'p> Folder<'p> {
 }
 
 /// Rows from the lines of a file, which must be those of some designs.
-fn rows_of(path: &Path, text: &str, designs: Range<usize>) -> Result<Vec<Row>, TaskError> {
+fn rows_of(plan: &Plan, path: &Path, text: &str, designs: Range<usize>) -> Result<Vec<Row>, TaskError> {
     let refused = |found: String| {
         let (first, last) = (designs.start, designs.end.saturating_sub(1));
         TaskError::Input(format!(
@@ -180,7 +180,9 @@ fn rows_of(path: &Path, text: &str, designs: Range<usize>) -> Result<Vec<Row>, T
     };
     let read = text.lines().map(serde_json::from_str::<Row>).collect::<Result<Vec<_>, _>>();
     let rows = read.map_err(|error| refused(error.to_string()))?;
-    match rows.iter().map(|row| row.index).eq(designs.clone()) {
+    // Of this plan, too: another may have begun in the same folder at the same instant.
+    let own = |row: &Row| row.hash == plan.design(row.index).hash;
+    match rows.iter().map(|row| row.index).eq(designs.clone()) && rows.iter().all(own) {
         true => Ok(rows),
         false => Err(refused(format!("{} rows of others", rows.len()))),
     }

@@ -3,6 +3,7 @@
 use super::folder::Folder;
 use super::{Piece, Row, Workers};
 use crate::{Progress, TaskError};
+use std::thread::available_parallelism;
 
 /// Computes all shards that are missing: together, and by itself what a process died of.
 ///
@@ -15,7 +16,7 @@ pub(super) fn run(workers: &Workers, folder: &Folder, progress: &mut dyn Progres
         if before.is_empty() {
             return Ok(());
         }
-        let jobs = workers.jobs.clamp(1, before.len());
+        let jobs = workers.jobs.clamp(1, before.len().min(most()));
         let died = together(workers, folder, jobs, progress)?;
         for (first, how) in &died {
             // A process takes its shards in order: it died of the first that is missing.
@@ -31,6 +32,11 @@ pub(super) fn run(workers: &Workers, folder: &Folder, progress: &mut dyn Progres
             return Err(TaskError::Work("processes of the sweep ended before their shards were done".into()));
         }
     }
+}
+
+/// Most processes at a time: more of them only take memory from each other.
+fn most() -> usize {
+    4 * available_parallelism().map_or(1, usize::from)
 }
 
 /// Runs that many processes until all have ended; returns those that died, with how they did.
