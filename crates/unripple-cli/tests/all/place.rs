@@ -95,10 +95,10 @@ fn placed_actuators_are_better_than_random_ones() {
     for (_, at) in layout(&report, "after") {
         assert!(within(to_rim(at), 6e-3, 12e-3), "{at}");
     }
-    // There are few enough layouts on the grid to compare all, and none is better than the best of them.
+    // There are few enough layouts on the grid to compare all, none is better than the best of them, and that one is taken.
     let (best, most) = (number(&report, "/restarts/best"), number(&report, "/certificate/objective"));
     assert!(best <= most * (1.0 + 1e-3), "{best} {most}");
-    assert!(number(&report, "/restarts/polished") >= best * (1.0 - 1e-3), "{report}");
+    assert!(number(&report, "/restarts/polished") >= most * (1.0 - 1e-3), "{report}");
     let rows = report["each_number"].as_array().unwrap();
     let numbers: Vec<u64> = rows.iter().filter_map(|row| row["actuators"].as_u64()).collect();
     assert_eq!(numbers, [1, 2, 3, 4, 5, 6]);
@@ -197,6 +197,12 @@ fn bad_input_is_refused_with_the_option() {
         (&["--grid-mm", "-1"], "--grid-mm"),
         (&["--objective", "quantile", "--share-percent", "120"], "--share-percent"),
         (&["--mounting-mm", "-1"], "--mounting-mm"),
+        (&["--mounting-mm", "20"], "--mounting-mm: expected at most a quarter of the shortest wavelength"),
+        (&["--set", "sheet.tension_n_per_m=0", "--tension-percent", "5"], "--tension-percent: expected 0"),
+        (
+            &["--place", "400,400", "--place", "10,10", "--count", "1"],
+            "--place: expected points on the surface",
+        ),
         (&["--tension-percent", "80"], "--tension-percent"),
         (&["--apart-mm", "nan"], "--apart-mm"),
         (&["--window-ms", "0"], "--window-ms"),

@@ -131,6 +131,33 @@ fn what_was_cut_short_goes_on_to_the_same_bits() {
 }
 
 #[test]
+fn a_part_of_another_plan_is_refused_though_its_designs_have_the_same_numbers() {
+    let scratch = Scratch::new("sweep-part");
+    let other = scratch.ask(&GRID.replace("150", "160"), "other");
+    run(&Ask { shard: Some(0), ..other }, &mut Silent).unwrap();
+    let ask = scratch.ask(GRID, "out");
+    run(&Ask { shard: Some(1), ..ask.clone() }, &mut Silent).unwrap();
+    fs::copy(scratch.0.join("other/parts/0.jsonl"), scratch.0.join("out/parts/0.jsonl")).unwrap();
+    let refused = run(&ask, &mut Silent).unwrap_err().to_string();
+    assert!(
+        refused.contains("0.jsonl: expected the rows of designs 0 to 2, found 3 rows of others"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn the_report_of_the_last_shard_is_of_the_whole() {
+    let scratch = Scratch::new("sweep-last");
+    let ask = scratch.ask(GRID, "out");
+    for shard in [0, 1, 2] {
+        run(&Ask { shard: Some(shard), ..ask.clone() }, &mut Silent).unwrap();
+    }
+    let report: Value = serde_json::from_str(&scratch.read("out/sweep.json")).unwrap();
+    assert_eq!((&report["shard"], &report["run"]["ask"]["shard"]), (&Value::Null, &Value::Null));
+    assert_eq!(report["done"], 8);
+}
+
+#[test]
 fn rows_of_another_plan_are_not_mixed_in() {
     let scratch = Scratch::new("sweep-mixed");
     let ask = scratch.ask(GRID, "out");
@@ -174,6 +201,7 @@ fn bad_plans_are_refused_with_their_place_and_numbers() {
         ),
         (GRID.replace("top_hz = 250", "top_hz = \"high\""), "the options of `modes`"),
         (GRID.replace("/count", "/methods/0/plan_s"), "a time by the clock"),
+        (GRID.replace("/count", "/run/date"), "a record of the run"),
         (GRID.replace("hudin-2012", "nowhere.toml"), "no surface"),
         (format!("{GRID}[sobol]\ncount = 10\n"), "from and to, between which Sobol points lie"),
         (
