@@ -7,7 +7,7 @@ use crate::numbers::above_zero;
 use crate::window::{carries, conditions};
 use crate::{Place, Progress, TaskError, go_on, point};
 use std::collections::HashSet;
-use unripple::act::{Note, accuracy, chosen_window, less_accurate};
+use unripple::act::{Note, accuracy, chosen_window, less_accurate, model};
 use unripple::core::{Actuator, ActuatorKind, Patch, Point, Random, Responses, Surface};
 use unripple::physics::Transducer;
 use unripple_placement::{Aim, Plant, Rules, spread};
@@ -74,6 +74,10 @@ impl Setting {
         progress.stage("modes");
         let plants = plants(ask, &kept, &kind)?;
         go_on(progress)?;
+        if plants[0].responses(&places[..1]).map_err(refused)?.poles.is_empty() {
+            // Refused in the words of all commands, with the next mode.
+            model(&surface, None, &[])?;
+        }
         let (window, window_why) = window(ask, &plants[0], &places)?;
         Ok(Self {
             surface,
