@@ -71,6 +71,8 @@ pub fn run_with(
     if let Some(shard) = ask.shard.filter(|shard| *shard >= plan.shards()) {
         return Err(TaskError::ask("shard", format!("0 to {}", plan.shards() - 1), shard));
     }
+    // Before the work, as of every task: files may change meanwhile. Whoever completes the last shard reports on the whole.
+    let record = Record::of(&Ask { shard: None, ..ask.clone() })?;
     let folder = Folder::open(&plan, output(ask)?)?;
     match (ask.shard, workers) {
         (Some(shard), _) => one(&folder, shard, progress)?,
@@ -90,9 +92,7 @@ pub fn run_with(
     };
     report.shard = ask.shard;
     if report.missing == 0 {
-        // Whoever completes the last shard reports on the whole.
         report.shard = None;
-        let record = Record::of(&Ask { shard: None, ..ask.clone() })?;
         write_file(folder.file(REPORT), record.json(&report)?.as_bytes())?;
         progress.tell(&format!("wrote {}", folder.file(TABLE).display()));
     }
