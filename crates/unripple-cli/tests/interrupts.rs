@@ -5,6 +5,7 @@
 
 mod common;
 
+use common::dice::{Dice, number};
 use common::{SMALL_FILM, Scratch, run};
 use std::collections::BTreeMap;
 use std::fs;
@@ -59,20 +60,6 @@ impl Case {
     fn is_cut_short(&self) -> bool {
         !["play ", "view "].iter().any(|command| self.arguments.starts_with(command))
     }
-}
-
-/// A fixed sequence of numbers that look random.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, most: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % most.max(1)
-    }
-}
-
-fn number(name: &str, usual: u64) -> u64 {
-    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
 /// Every file below a folder, and what is in it; folders end in a slash.

@@ -5,6 +5,7 @@
 
 mod common;
 
+use common::dice::{Dice, number};
 use common::{Scratch, json, refused};
 use std::collections::BTreeMap;
 use std::fs;
@@ -35,20 +36,6 @@ const DESIGNS: usize = 240;
 
 /// Time in which a process takes a shard, or ends, on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
-
-/// A fixed sequence of numbers that look random.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, most: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % most.max(1)
-    }
-}
-
-fn number(name: &str, usual: u64) -> u64 {
-    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
-}
 
 /// The shards that are done, with their bytes.
 fn parts(out: &Path) -> BTreeMap<String, Vec<u8>> {

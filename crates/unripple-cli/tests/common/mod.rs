@@ -1,6 +1,7 @@
 //! Running the binary as a user would.
 #![allow(dead_code)] // Each test file uses its own part of this.
 
+pub mod dice;
 pub mod guide;
 pub mod schema;
 
