@@ -132,7 +132,7 @@ def place(surface: _types.SurfaceLike, **options: Unpack[_types.PlaceOptions]) -
     Examples
     --------
     >>> import unripple as ur
-    >>> film = ur.Surface("hudin-2012", band_hz=[0, 500])
+    >>> film = ur.Surface("hudin-2012", band_hz=[0, 1000])
     >>> report = ur.place(film, count=3, rim_mm=(6, 12), restarts=1, targets=5)
     >>> report.after.mean_contrast > report.random.mean_contrast
     True
