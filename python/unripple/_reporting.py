@@ -85,9 +85,9 @@ class Reporting:
         Parameters
         ----------
         count, like
-            How many to place, 8 by default, and the name of an actuator that they are like; by default the surface's first one.
+            How many to place, 8 by default, and the name of the actuator whose kind and constants they get; by default the surface's first.
         keep, keep_all
-            Names of the surface's actuators that stay where they are, or whether all do; by default all are taken away.
+            Names of the surface's actuators that are kept where they are, or whether all are; by default all are removed.
         rim_mm, within, keep_out
             Where places may be: between two distances from the rim, in one of some polygons, and in none of others. A polygon is a sequence
             of corners ``(x, y)`` in mm; one alone stands for a list of one.
@@ -96,23 +96,24 @@ class Reporting:
         apart_mm
             Least distance between any two actuators; by default that at which two of those placed would touch.
         at, screen, targets
-            What to place for: targets ``(x, y)`` or ``(x, y, weight)`` in mm, or polygons in which so many targets are spread, 20 by default;
-            without either anywhere at least one shortest wavelength from the rim.
+            What the layout is optimised for: targets ``(x, y)`` or ``(x, y, weight)`` in mm, or polygons in which so many targets
+            are spread, 20 by default; without either anywhere at least one shortest wavelength from the rim.
         objective, share_percent
-            What is made large: the ``"mean"`` of the contrasts at all targets (the default), the ``"worst"`` one, or as a ``"quantile"`` that
-            which a share of the targets, 10 % by default, stays below.
+            What is maximised: the ``"mean"`` of the contrasts at all targets (the default), the ``"worst"`` one, or as a ``"quantile"`` the
+            one that a share of the targets, 10 % by default, stays below.
         mounting_mm, tension_percent
-            Errors of the places along each axis, and of the tension up and down, up to which the layout is to be good.
+            Largest errors of the actuators' places along each axis, and largest deviation of the tension up and down; the layout is
+            optimised for the mean over both.
         window_ms
             Window in ms; by default the one that :meth:`design` recommends for evenly spread actuators.
         restarts, seed
-            Number of random layouts that the search begins from, beside the greedy one, and their seed.
+            Number of random layouts from which the search is restarted, in addition to its start from the greedy layout, and their seed.
         up_to
             Largest number of actuators in the table of contrast against their number; by default twice `count`.
         method
-            Methods of focusing whose drives are evaluated before and after.
+            Methods of focusing whose drives are evaluated with the surface's own actuators and with the placed ones.
         output, no_figures, columns
-            Folder for the surface with the actuators in their places (``surface.toml``), report and figures; as for :meth:`focus`.
+            Folder for the surface with the placed actuators (``surface.toml``), report and figures; as for :meth:`focus`.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-//! What time reversal needs of a surface's modes, for all actuators and targets.
+//! The quantities of a surface's modes from which time reversal is computed, for all actuators and targets.
 
 use crate::PlacementError;
 use crate::mounting::Inputs;
@@ -13,7 +13,8 @@ use unripple_linalg::{Mat, MatRef, product};
 /// twice this value, contrasts change by 2 % rms, and it takes four times as long.
 const CELLS: f64 = 4.0;
 
-/// The modes of a surface: sums over the window, and the products of shapes over the grid.
+/// Products of a surface's modes: of their impulse responses, summed over the window, and of their shapes,
+/// averaged over the grid.
 #[derive(Debug)]
 pub struct Basis {
     /// Sums over the window of the products of two modes' impulse responses, relative to the largest.
@@ -24,23 +25,23 @@ pub struct Basis {
     points: Vec<Point>,
     shapes: Arc<dyn Shapes>,
     conditions: Conditions,
-    /// By what sums and input weights have been divided.
+    /// Divisor of the sums and of the input weights.
     scale: f64,
 }
 
-/// What time reversal to a target needs beside the [`Basis`].
+/// The quantities of one target from which, with the [`Basis`], time reversal to it is computed.
 #[derive(Debug)]
 pub struct Aimed {
     /// Shape weights at the target, relative to the largest.
     pub shape: Vec<f32>,
     /// Mean of the products of two shapes over the points outside the focal disc, relative to the square of that largest weight.
     pub outside: Mat<f32>,
-    /// By what peaks are to be multiplied for m²/s² per squared unit of drive, summed over samples.
+    /// Factor that converts peaks to m²/s² per squared unit of drive, summed over samples.
     pub unit: f64,
 }
 
 impl Basis {
-    /// What time reversal over a window (s) needs.
+    /// Computes these products for a window (s).
     ///
     /// # Errors
     /// [`PlacementError::Field`] for a surface too large for a grid.
@@ -65,7 +66,7 @@ impl Basis {
         self.sums.as_ref()
     }
 
-    /// What time reversal to a target (m) needs beside.
+    /// The quantities of a target at `at` (m).
     ///
     /// # Errors
     /// [`PlacementError::Target`] if no point of the grid is outside its focal disc.

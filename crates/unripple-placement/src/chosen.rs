@@ -1,8 +1,8 @@
-//! A set of actuators, and what one more or another would change.
+//! A set of actuators, and how adding or removing one changes its contrasts.
 
 use crate::{Forms, Objective};
 
-/// Actuators that are chosen, with the sums over them.
+/// A set of chosen actuators, with the sums of the quadratic forms over it.
 #[derive(Clone, Debug)]
 pub struct Chosen<'a> {
     forms: &'a Forms,
@@ -34,18 +34,18 @@ impl<'a> Chosen<'a> {
         &self.actuators
     }
 
-    /// Contrast of every case, a ratio.
+    /// Contrast of every case (a target on one model of the surface), a ratio.
     pub fn contrasts(&self) -> Vec<f64> {
         let ratio = |(peak, square): (&f32, &f32)| f64::from(contrast(*peak, *square));
         self.peaks.iter().zip(&self.squares).map(ratio).collect()
     }
 
-    /// The figure that is optimised, a contrast (ratio).
+    /// The value of the objective for this set, a contrast (ratio).
     pub fn score(&self, objective: Objective) -> f64 {
         objective.of(&self.contrasts(), self.forms.weights())
     }
 
-    /// The set without the actuator at an index of [`Chosen::actuators`].
+    /// The set without its actuator number `index`, counted as in [`Chosen::actuators`].
     #[must_use]
     pub fn without(&self, index: usize) -> Self {
         let mut rest = self.actuators.clone();
@@ -68,7 +68,7 @@ impl<'a> Chosen<'a> {
         }
     }
 
-    /// The set with one more actuator at an index of [`Chosen::actuators`].
+    /// The set with the actuator `a` inserted as number `index`, counted as in [`Chosen::actuators`].
     #[must_use]
     pub fn with(mut self, index: usize, a: usize) -> Self {
         let (count, row) = (self.forms.actuators(), self.forms.row(a));
@@ -81,7 +81,8 @@ impl<'a> Chosen<'a> {
         self
     }
 
-    /// The figure with one more actuator, for every actuator there is.
+    /// The value of the objective for the set with one more actuator, a contrast (ratio) for each actuator of
+    /// the forms.
     pub fn with_each(&self, objective: Objective) -> Vec<f64> {
         match objective {
             Objective::Mean => self.fold(0.0, |sum, weight, contrast| sum + weight * contrast),

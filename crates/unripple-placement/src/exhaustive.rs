@@ -1,23 +1,25 @@
-//! The best layout of all, by looking at every one: a certificate where there are few.
+//! The best of all layouts, found by comparing every one: proof of an optimum where there are few.
 
 use crate::{Chosen, Found, Objective, Search};
 use rayon::prelude::*;
 
-/// Largest number of contrasts that are computed for a certificate: some seconds. With ten times as many, a search would mostly wait for it.
+/// Largest number of contrasts that are computed to compare all layouts: it takes some seconds. With ten times as many, a search would
+/// mostly wait for it.
 const MOST: f64 = 2e9;
 
-/// Time to find a quantile over that to find a mean.
+/// Ratio of the time to find a quantile to that to find a mean.
 const SORTED: f64 = 16.0;
 
 impl Search<'_> {
-    /// Number of layouts of `count` actuators, least distances aside.
+    /// Number of layouts of `count` actuators, if any distance between two of them is allowed.
     pub fn layouts(&self, count: usize) -> f64 {
         let places = (self.at.len() - self.kept) as f64;
         let layouts: f64 = (0..count).map(|i| (places - i as f64).max(0.0) / (i as f64 + 1.0)).product();
         layouts.min(f64::MAX)
     }
 
-    /// The best of all layouts of `count` actuators beside those that stay; `None` if there are too many to look at, or none.
+    /// The best of all layouts of `count` actuators in addition to the kept ones; `None` if there are too many layouts to
+    /// compare, or none.
     pub fn best_of_all(&self, count: usize) -> Option<Found> {
         // Quantiles are found by sorting.
         let most = if matches!(self.objective, Objective::Quantile(_)) { MOST / SORTED } else { MOST };

@@ -11,7 +11,7 @@ use unripple_linalg::{Accum, Mat, Par, multiply};
 /// Largest number of samples of a window: past it a window is taken for a mistake of unit, being minutes long at any usual rate.
 const MOST_SAMPLES: f64 = 2e7;
 
-/// A target and how much it counts.
+/// A target and its weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aim {
     /// The target, in metres.
@@ -55,13 +55,14 @@ struct Case {
     states: Mat<f32>,
     /// W s_a, modes x actuators.
     outside: Mat<f32>,
-    /// By what peaks are to be multiplied for m²/s² per squared unit of drive, summed over samples.
+    /// Factor that converts peaks to m²/s² per squared unit of drive, summed over samples.
     unit: f64,
 }
 
 impl Forms {
-    /// The forms of the actuators that stay and of one more at each of `places` (m), for all targets on all models of the surface.
-    /// Each place is known to within `mounting` (m) along each axis, and what is expected then is computed; 0 for exact places.
+    /// The forms of the kept actuators and of one more at each of `places` (m), for all targets on all models of the surface. With
+    /// `mounting` above 0, each place has an error of up to `mounting` (m) along each axis, and the forms are expected values over
+    /// these errors.
     ///
     /// # Errors
     /// [`PlacementError::Range`] for a window (s) of no sample or too many, or weights that are not positive;
@@ -103,7 +104,7 @@ impl Forms {
         Ok(forms)
     }
 
-    /// Number of actuators: those that stay, and one for each place.
+    /// Number of actuators: the kept ones, and one for each place.
     pub fn actuators(&self) -> usize {
         self.actuators
     }
@@ -153,7 +154,7 @@ impl Forms {
         rows
     }
 
-    /// Peaks and contrasts of every case for a set of actuators, without any row.
+    /// Peaks and contrasts of every case for a set of actuators, computed without rows of Q.
     pub(crate) fn of_set(&self, set: &[usize]) -> (Vec<f64>, Vec<f64>) {
         let of = |case: &Case| {
             let peak: f64 = set.iter().map(|a| f64::from(case.peaks[*a])).sum();
@@ -179,7 +180,7 @@ impl Forms {
         self.cases.iter().zip(peaks).map(|(case, peak)| self.rate / (peak * case.unit))
     }
 
-    /// Refuses what takes more memory than is allowed.
+    /// Returns an error if the forms need more memory than is allowed.
     fn fit(&self, modes: usize, cases: usize, nodes: usize) -> Result<(), PlacementError> {
         // States and what they are outside, and rows, all of which a search may need.
         let forms = 4.0 * (cases * self.actuators) as f64 * (2 * modes + self.actuators) as f64;
@@ -199,7 +200,7 @@ impl Forms {
     }
 }
 
-/// The forms of a target for all actuators: means over the nodes of where each may be.
+/// The forms of a target for all actuators: means over the nodes of the errors of mounting.
 fn case(basis: &Basis, nodes: &[Mat<f32>], at: Point) -> Result<Case, PlacementError> {
     let aimed = basis.aimed(at)?;
     let (modes, actuators) = (nodes[0].nrows(), nodes[0].ncols());

@@ -1,9 +1,9 @@
-//! How good a layout is, target by target.
+//! Contrast and energy of time reversal from a layout, target by target.
 
 use crate::{Aim, Forms, Objective, PlacementError, Plant};
 use unripple_core::Point;
 
-/// What time reversal from a layout achieves at one target.
+/// Contrast and energy of time reversal from a layout to one target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reached {
     /// Contrast: peak velocity over the rms outside the focal disc at the focal instant; the mean over the models of the surface.
@@ -14,7 +14,8 @@ pub struct Reached {
     pub energy: f64,
 }
 
-/// What time reversal achieves at each target from the actuators that stay and one more at each of `places` (m).
+/// Contrast and energy of time reversal to each target, from the kept actuators and one more at each of `places`
+/// (m).
 ///
 /// # Errors
 /// Those of [`Forms::new`].
@@ -48,7 +49,7 @@ pub fn reached(
 /// Places of layouts that are evaluated at once: more of them share what does not depend on places, and take more memory.
 const AT_ONCE: usize = 400;
 
-/// What [`reached`] returns, for each of several layouts.
+/// The results of [`reached`] for each of several layouts.
 ///
 /// # Errors
 /// Those of [`Forms::new`].
@@ -81,7 +82,7 @@ pub fn reached_each(
     Ok(found)
 }
 
-/// What a set of actuators achieves at each target.
+/// Contrast and energy of time reversal from a set of actuators to each target.
 fn of_targets(forms: &Forms, set: &[usize], targets: usize) -> Vec<Reached> {
     let (peaks, contrasts) = forms.of_set(set);
     let energies: Vec<f64> = forms.energies(&peaks).collect();
@@ -102,7 +103,7 @@ fn of_targets(forms: &Forms, set: &[usize], targets: usize) -> Vec<Reached> {
     (0..targets).map(reached).collect()
 }
 
-/// A figure of the contrasts at some targets, itself a contrast (ratio).
+/// The value of an objective for the contrasts at some targets, itself a contrast (ratio).
 pub fn figure(reached: &[Reached], aims: &[Aim], objective: Objective) -> f64 {
     let total: f64 = aims.iter().map(|aim| aim.weight).sum();
     let weights: Vec<f64> = aims.iter().map(|aim| aim.weight / total).collect();

@@ -7,9 +7,10 @@
 //!
 //! # In reading order
 //!
-//! A [`Plant`] is a surface with the actuators that stay, and a kind of actuator to be put at any place. [`Rules`] say where, [`spread`]
-//! makes targets. [`Forms`] are the two sums, a [`Search`] finds layouts ([`Found`]), and [`Polish`] moves them off the grid.
-//! [`reached`] says what a layout achieves at each target, by an [`Objective`] condensed to one figure.
+//! A [`Plant`] is a surface with the actuators that it keeps, and the kind of actuator that is placed on it. [`Rules`] say where
+//! actuators may be, [`spread`] makes targets. [`Forms`] are the two sums, a [`Search`] finds layouts ([`Found`]), and [`Polish`] moves
+//! their actuators off the grid. [`reached`] gives the contrast of a layout at each target, and an [`Objective`] condenses these
+//! contrasts to one number.
 //!
 //! ```
 //! use unripple_physics::design::papers_surface;

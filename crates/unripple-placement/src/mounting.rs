@@ -1,27 +1,28 @@
-//! Places that are known to within an error.
+//! Errors of mounting: actuators that are some way off their nominal places.
 
 use crate::{PlacementError, Plant};
 use unripple_core::{ModalResponses, Point};
 use unripple_linalg::Mat;
 
-/// Where an actuator may be that is known to be at a place: nodes of a quadrature, each of the same weight.
+/// Offsets of an actuator from its nominal place by errors of mounting: nodes of a quadrature, all of the
+/// same weight.
 ///
 /// Errors along both axes are independent and uniform. Four nodes, the product of two-point Gauss-Legendre rules, integrate polynomials of
 /// degree three in each coordinate.
 #[derive(Debug)]
 pub struct Mounting(Vec<[f64; 2]>);
 
-/// Responses to actuators at every node of where each may be.
+/// Responses to actuators at every node of the errors of mounting.
 #[derive(Debug)]
 pub struct Inputs {
-    /// Responses to the actuators where they are said to be.
+    /// Responses to the actuators at their nominal places.
     pub nominal: ModalResponses,
     /// Input weights at every node, actuators x modes.
     nodes: Vec<Mat<f64>>,
 }
 
 impl Mounting {
-    /// Errors of up to `error` (m) along each axis; a single node where that is 0.
+    /// The nodes for errors of up to `error` (m) along each axis; a single node if `error` is 0.
     pub fn of(error: f64) -> Self {
         let at = error / 3.0_f64.sqrt();
         let nodes = [[-at, -at], [at, -at], [-at, at], [at, at]];
@@ -33,8 +34,8 @@ impl Mounting {
         self.0.len()
     }
 
-    /// The responses to the actuators that stay, which are where they are, and to one more at each of `places` (m), at every node. Where
-    /// no actuator can be at a node, it is taken to be at the place itself.
+    /// The responses to the kept actuators, which have no error, and to one more at each of `places` (m), for every node. If an actuator
+    /// cannot be at a node (beyond the rim), it is taken to be at the place itself.
     ///
     /// # Errors
     /// Those of [`Plant::responses`].
@@ -64,7 +65,7 @@ impl Inputs {
         self.nominal.poles.len()
     }
 
-    /// The largest input weight anywhere.
+    /// The largest input weight of all modes, actuators and nodes, in the unit of [`ModalResponses::input`].
     pub fn largest(&self) -> f64 {
         let all = self.nodes.iter().flat_map(|node| node.col_iter().flat_map(|column| column.iter()));
         all.fold(0.0, |most: f64, weight| most.max(weight.abs())).max(f64::MIN_POSITIVE)

@@ -1,9 +1,9 @@
-//! What a choice of places is to make large.
+//! The objective that a search for places maximises.
 
 use crate::PlacementError;
 use unripple_core::require;
 
-/// What is made large: a figure of the contrasts at all targets.
+/// The objective to be maximised: mean, least value or a quantile of the contrasts at all targets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Objective {
     /// The weighted mean of the contrasts.
@@ -16,7 +16,7 @@ pub enum Objective {
 }
 
 impl Objective {
-    /// Checks the share of a quantile.
+    /// Checks that the share of a quantile is from 0 to 1.
     ///
     /// # Errors
     /// [`PlacementError::Range`] for a share that is not 0 to 1.
@@ -27,7 +27,8 @@ impl Objective {
         Ok(())
     }
 
-    /// The figure of some contrasts and their weights, whose sum is 1.
+    /// The value of the objective for some contrasts and their weights, whose sum is 1; itself a contrast
+    /// (ratio).
     ///
     /// ```
     /// use unripple_placement::Objective;

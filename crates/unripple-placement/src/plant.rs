@@ -6,10 +6,11 @@ use unripple_core::{Actuator, ActuatorKind, CoilDrive, ModalResponses, Point, Re
 use unripple_linalg::Mat;
 use unripple_physics::{Modes, ResponseOptions, Transducer, accuracy, response_modes, responses_on};
 
-/// A surface with the actuators that stay, and one kind of actuator to be put at any place.
+/// A surface with the actuators that it keeps, and the kind of actuator that is placed on it.
 ///
-/// An actuator to be put is taken as a force (or as the moment of a patch) that does not load the sheet: its mass, spring and electrical
-/// damping are left out while places are compared, and count once it is there. The actuators that stay load the sheet.
+/// An actuator to be placed is modelled as a force (or as the moment of a patch) that does not load the sheet: its mass, spring and
+/// electrical damping are left out while places are compared, and are included once its place is chosen. The kept actuators load the
+/// sheet.
 #[derive(Clone, Debug)]
 pub struct Plant {
     surface: Surface,
@@ -17,12 +18,12 @@ pub struct Plant {
     gain: f64,
     modes: Arc<Modes>,
     options: ResponseOptions,
-    /// Share of this surface in what is optimised, as one of several that may come about.
+    /// Weight of this surface in the objective, if layouts are optimised for several models of the surface.
     pub weight: f64,
 }
 
 impl Plant {
-    /// The surface with the actuators it has, all of which stay, and actuators like `kind` to be put on it.
+    /// A surface whose actuators are all kept, with actuators like `kind` to be placed on it.
     ///
     /// # Errors
     /// [`PlacementError::Physics`] of the surface's modes.
@@ -47,38 +48,39 @@ impl Plant {
         Ok(Self { surface, template, gain, modes, options, weight: 1.0 })
     }
 
-    /// The surface, with the actuators that stay.
+    /// The surface, with the kept actuators only.
     pub fn surface(&self) -> &Surface {
         &self.surface
     }
 
-    /// Number of modes of the sheet that were solved for, at least those that responses have.
+    /// Number of modes of the sheet that were computed: at least as many as the responses have.
     pub fn modes(&self) -> usize {
         self.modes.poles().len()
     }
 
-    /// An upper bound of the relative error of the sheet's natural frequencies, a ratio.
+    /// An upper bound of the relative error of the sheet's natural frequencies (a ratio).
     pub fn frequency_error(&self) -> f64 {
         self.modes.error()
     }
 
-    /// An actuator as it is put, without its load.
+    /// The actuator that is placed, modelled without its load on the sheet.
     pub fn kind(&self) -> &Actuator {
         &self.template
     }
 
-    /// Number of actuators that stay.
+    /// Number of kept actuators.
     pub fn kept(&self) -> usize {
         self.surface.actuators.len()
     }
 
-    /// Whether an actuator of the kind can be at a place (m): on the sheet, a patch wholly so.
+    /// Whether an actuator of the kind can be at a place (m): it must be on the sheet, a patch with its whole
+    /// area.
     pub fn holds(&self, at: Point) -> bool {
         let there = Actuator { at, ..self.template.clone() };
         Transducer::of(&there, &self.surface.outline).is_ok()
     }
 
-    /// The responses to the actuators that stay, followed by those to one more at each of `places` (m).
+    /// The responses to the kept actuators, followed by those to one more at each of `places` (m).
     ///
     /// # Errors
     /// [`PlacementError::Physics`] for a place at which no actuator can be.
@@ -102,8 +104,8 @@ fn named(actuator: &Actuator, i: usize) -> Actuator {
     Actuator { name: format!("place {i}"), ..actuator.clone() }
 }
 
-/// An actuator without its load on the sheet, and by what its force per drive is to be multiplied: that of a coil driven by a voltage is
-/// taken where the coil's resistance alone sets its current.
+/// An actuator without its load on the sheet, and the factor on its force per drive: for a coil driven by a voltage, that at frequencies
+/// where the coil's resistance alone sets the current.
 fn without_load(actuator: &Actuator) -> (Actuator, f64) {
     let gain = actuator.kind.coil().map_or(1.0, |coil| match coil.driven_by {
         CoilDrive::Current => coil.force_constant,

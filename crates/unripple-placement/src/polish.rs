@@ -7,13 +7,15 @@ use unripple_core::Point;
 /// Directions in which an actuator may move. With half as many, it could not move along a rim that is oblique to the axes.
 const DIRECTIONS: usize = 8;
 
-/// By how much steps become smaller: from half the pitch of the grid to a thirty-second.
+/// Number of sizes of steps: from half the pitch of the grid, each half the one before, to a thirty-second.
 const HALVINGS: usize = 5;
 
-/// Most moves with one size of step. A place that is still better after that is found with the next size, or is a long way off.
+/// Largest number of moves with one size of step. A place that is still better after that is found with the next size, or is a
+/// long way off.
 const MOVES: usize = 4;
 
-/// What layouts are polished for: the models of the surface, targets, window, rules.
+/// Settings for moving actuators to better places between those of the grid: models of the surface, targets,
+/// window, rules.
 #[derive(Clone, Copy, Debug)]
 pub struct Polish<'a> {
     /// The models of the surface.
@@ -22,19 +24,19 @@ pub struct Polish<'a> {
     pub aims: &'a [Aim],
     /// Window T, in seconds.
     pub window: f64,
-    /// Error to within which each place is known along each axis, in metres.
+    /// Largest error of each place along each axis, in metres.
     pub mounting: f64,
     /// Where actuators may be.
     pub rules: &'a Rules,
     /// Least distance between any two actuators, in metres.
     pub apart: f64,
-    /// What is made large.
+    /// The objective that is maximised.
     pub objective: Objective,
 }
 
 impl Polish<'_> {
-    /// Moves the actuators from the places (m) of a grid with the given pitch (m) to better ones nearby, and returns these and the figure
-    /// that was made large.
+    /// Moves the actuators from their places (m) on a grid with the given pitch (m) to better ones nearby; returns the new places and the
+    /// value of the objective, a contrast (ratio).
     ///
     /// # Errors
     /// Those of [`Forms::new`].

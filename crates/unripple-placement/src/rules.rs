@@ -6,7 +6,7 @@ use unripple_core::{Outline, Point, require};
 /// Largest number of cells of a grid of places. With twice this value, a search would take a GiB for every ten targets.
 const MOST_CELLS: f64 = 4e6;
 
-/// Where actuators may be: at some distance from the rim, inside areas, outside others.
+/// Where actuators may be: within a range of distances from the rim, inside some areas, outside others.
 ///
 /// ```
 /// use unripple_core::{Outline, Point, Shape};

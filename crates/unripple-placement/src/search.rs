@@ -10,36 +10,37 @@ const GAIN: f64 = 1e-5;
 /// Distance in metres below which two places are one. No actuator is that small.
 const COINCIDENT: f64 = 1e-6;
 
-/// Random layouts that are tried before places count as too close to each other.
+/// Number of random layouts that are tried before the places count as too close to each other.
 const TRIES: usize = 100;
 
-/// What is searched: forms, where the actuators are, and what may be chosen.
+/// A search for the best layout: quadratic forms, places, kept actuators, least distance and objective.
 #[derive(Clone, Copy, Debug)]
 pub struct Search<'a> {
-    /// Quadratic forms of all actuators: those that stay first, then one at each place.
+    /// Quadratic forms of all actuators: the kept ones first, then one at each place.
     pub forms: &'a Forms,
-    /// Where each actuator of the forms is, in metres.
+    /// Place of each actuator of the forms, in metres.
     pub at: &'a [Point],
-    /// Number of actuators that stay; they are in every layout.
+    /// Number of kept actuators, which are in every layout.
     pub kept: usize,
     /// Least distance between any two actuators, in metres.
     pub apart: f64,
-    /// What is made large.
+    /// The objective that is maximised.
     pub objective: Objective,
 }
 
-/// A layout that cannot be improved by moving any one of its actuators, and how good it is.
+/// A layout that cannot be improved by moving any one of its actuators, and the value of the objective for
+/// it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// Indices of its actuators in the forms; those that stay come first.
+    /// Indices of its actuators in the forms; the kept ones come first.
     pub actuators: Vec<usize>,
-    /// The figure that was made large.
+    /// The value of the objective, a contrast (ratio).
     pub score: f64,
 }
 
 impl Search<'_> {
-    /// The best layouts of every number of actuators from 1 to `most` (beside those that stay): each begins with the one before and the
-    /// actuator that gains most, and is improved by exchange.
+    /// Layouts of every number of actuators from 1 to `most` (in addition to the kept ones): each starts from the layout before with
+    /// the actuator added that gains most, and is improved by exchange.
     ///
     /// # Errors
     /// [`PlacementError::Few`] if the places do not hold so many.
@@ -57,8 +58,8 @@ impl Search<'_> {
         Ok(layouts)
     }
 
-    /// The best of several layouts of `count` actuators, beside those that stay, improved by exchange from as many random beginnings.
-    /// The order is that of the beginnings, whatever the number of threads.
+    /// Layouts of `count` actuators in addition to the kept ones, each improved by exchange from one of `restarts` random
+    /// layouts, in the order of these whatever the number of threads.
     ///
     /// # Errors
     /// [`PlacementError::Few`] if no random layout of so many actuators was found.
@@ -67,7 +68,7 @@ impl Search<'_> {
         Ok(from.into_par_iter().map(|actuators| self.exchanged(actuators)).collect())
     }
 
-    /// Random layouts of `count` actuators, beside those that stay.
+    /// Random layouts of `count` actuators in addition to the kept ones, as indices of the forms.
     ///
     /// # Errors
     /// [`PlacementError::Few`] if none was found that keeps the least distance.
@@ -96,7 +97,7 @@ impl Search<'_> {
         (0..layouts).map(|_| one()).collect()
     }
 
-    /// The figure of a layout, a contrast (ratio).
+    /// The value of the objective for a layout, a contrast (ratio).
     pub fn score(&self, actuators: Vec<usize>) -> f64 {
         Chosen::new(self.forms, actuators).score(self.objective)
     }
@@ -131,7 +132,8 @@ impl Search<'_> {
         Found { score: now.score(self.objective), actuators: now.actuators().to_vec() }
     }
 
-    /// The actuator that makes the figure of a set largest, and that figure; `None` if no place is free.
+    /// The actuator whose addition to a set gives the objective its largest value, and that value; `None` if
+    /// no place is free.
     fn best_of(&self, set: &Chosen<'_>, may: impl Fn(usize) -> bool) -> Option<(usize, f64)> {
         let scores = set.with_each(self.objective);
         let mut best: Option<(usize, f64)> = None;
@@ -143,7 +145,7 @@ impl Search<'_> {
         best
     }
 
-    /// Whether an actuator keeps its distance from those of a set, and is none of them.
+    /// Whether an actuator is at least [`Search::apart`] away from all those of a set, and is none of them.
     pub fn is_free(&self, set: &[usize], b: usize) -> bool {
         let far = |a: usize| self.at[a].distance(self.at[b]) >= self.apart.max(COINCIDENT);
         set.iter().all(|a| *a != b && far(*a))

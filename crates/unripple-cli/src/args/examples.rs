@@ -49,9 +49,9 @@ pub const COMPARE: &str = "Examples:
 pub const PLACE: &str = "Examples:
   Eight actuators, 6 to 12 mm from the rim:
     unripple place hudin-2012 --rim-mm 6,12 -o placed
-  Four that bear errors of a millimetre, around a screen:
+  Four that tolerate mounting errors of 1 mm, around a screen:
     unripple place my-surface.toml --count 4 --mounting-mm 1 --screen 30,30,120,30,120,120,30,120
-  One more beside those of the file:
+  One more, with those of the file kept:
     unripple place my-surface.toml --count 1 --keep-all";
 
 /// For `sweep`: how many designs, all of them, and one shard.

@@ -4,11 +4,11 @@
 pub const EVERY: &str = "For every command";
 /// Surfaces that are compared.
 pub const SURFACES: &str = "Surfaces";
-/// Actuators that are placed, and those that stay.
+/// Actuators that are placed, and those that are kept.
 pub const ACTUATORS: &str = "Actuators";
 /// Where actuators may be.
 pub const PLACES: &str = "Places";
-/// What a search makes large, and how long it tries.
+/// The objective of a search, and its effort.
 pub const SEARCH: &str = "Search";
 /// Targets of a focus, or places that are evaluated.
 pub const TARGETS: &str = "Targets";

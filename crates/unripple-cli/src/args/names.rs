@@ -29,7 +29,7 @@ impl DeviceName {
     }
 }
 
-/// What actuators are placed for.
+/// Objectives of a search for places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum ObjectiveName {
     /// The mean of the contrasts.

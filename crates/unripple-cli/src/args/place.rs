@@ -14,13 +14,15 @@ pub struct PlaceOptions {
     /// Number of actuators to place.
     #[arg(long, value_name = "N", default_value_t = 8, help_heading = heading::ACTUATORS)]
     pub count: usize,
-    /// Name of an actuator of the surface that stays where it is, beside those that are placed. Repeatable; all others are taken away.
+    /// Name of an actuator of the surface that is kept where it is, in addition to those that are placed. Repeatable; all others are
+    /// removed.
     #[arg(long, value_name = "NAME", help_heading = heading::ACTUATORS)]
     pub keep: Vec<String>,
     /// Keep all actuators of the surface.
     #[arg(long, conflicts_with = "keep", help_heading = heading::ACTUATORS)]
     pub keep_all: bool,
-    /// Name of an actuator of the surface that those to be placed are like; by default its first one.
+    /// Name of the actuator of the surface whose kind and constants the placed ones get; by default its first
+    /// one.
     #[arg(long, value_name = "NAME", help_heading = heading::ACTUATORS)]
     pub like: Option<String>,
     /// Least and greatest distance of places from the rim, in mm; by default anywhere.
@@ -48,25 +50,29 @@ pub struct PlaceOptions {
     /// from the rim. Repeatable: then in any of them.
     #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::TARGETS)]
     pub screen: Vec<String>,
-    /// Number of targets to place for, if none are given; layouts are evaluated on three times as many others.
+    /// Number of targets that the layout is optimised for, if none are given; layouts are evaluated on three
+    /// times as many others.
     #[arg(long, value_name = "N", default_value_t = 20, help_heading = heading::TARGETS)]
     pub targets: usize,
-    /// What is made large: a figure of the contrasts of time reversal at all targets.
+    /// The objective to be maximised, from the contrasts of time reversal at all targets.
     #[arg(long, value_enum, default_value_t, help_heading = heading::SEARCH)]
     pub objective: ObjectiveName,
     /// For the objective `quantile`: share of the targets that may be worse, in per cent.
     #[arg(long, value_name = "PERCENT", default_value_t = 10.0, allow_negative_numbers = true, help_heading = heading::SEARCH)]
     pub share_percent: f64,
-    /// Error of the places along each axis, in mm, up to which the layout is to be good.
+    /// Largest error of the actuators' places along each axis, in mm; the layout is optimised for its mean
+    /// performance with such errors.
     #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true, help_heading = heading::SEARCH)]
     pub mounting_mm: f64,
-    /// Error of the tension, up and down, in per cent, up to which the layout is to be good.
+    /// Largest deviation of the tension, up and down, in per cent; the layout is optimised for the mean over
+    /// tensions in this range.
     #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true, help_heading = heading::SEARCH)]
     pub tension_percent: f64,
     /// Window T in ms; by default the one that `design` recommends for evenly spread actuators.
     #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TIME)]
     pub window_ms: Option<f64>,
-    /// Number of random layouts that the search begins from, beside the greedy one.
+    /// Number of random layouts from which the search is restarted, in addition to its start from the greedy
+    /// layout.
     #[arg(long, value_name = "N", default_value_t = 10, help_heading = heading::SEARCH)]
     pub restarts: usize,
     /// Seed of the random layouts.
@@ -75,7 +81,8 @@ pub struct PlaceOptions {
     /// Largest number of actuators in the table of contrast against their number; by default twice --count.
     #[arg(long, value_name = "N", help_heading = heading::SEARCH)]
     pub up_to: Option<usize>,
-    /// Method of focusing whose drives are evaluated before and after. Repeatable.
+    /// Method of focusing whose drives are evaluated with the surface's own actuators and with the placed
+    /// ones. Repeatable.
     #[arg(long, value_enum, help_heading = heading::METHOD)]
     pub method: Vec<MethodName>,
     /// Write no pictures.
@@ -84,7 +91,7 @@ pub struct PlaceOptions {
     /// Width of the pictures, in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default it depends on the picture.
     #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
     pub columns: Option<usize>,
-    /// Folder for the surface with the actuators in their places, report and pictures; without it only the report is printed.
+    /// Folder for the surface file with the placed actuators, the report and pictures; without it only the report is printed.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
 }

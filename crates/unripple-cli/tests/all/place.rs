@@ -170,7 +170,7 @@ fn the_text_has_the_layouts_beside_each_other() {
     let output = run(&[&FILM[..], &["--count", "3", "--rim-mm", "6,12"]].concat());
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let rows = ["\nplaced ", "\nas the file has them ", "\nrandom, 20 layouts "];
+    let rows = ["\nplaced ", "\nlayout of the file ", "\nrandom, 20 layouts "];
     let discs = "note (focal disc): a focal disc, of radius ";
     for part in ["3 actuators placed", "certificate: ", discs].iter().chain(&rows) {
         assert!(text.contains(part), "{part:?} in {text}");

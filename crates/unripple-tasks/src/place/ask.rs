@@ -7,10 +7,10 @@ use std::path::PathBuf;
 use unripple::focus::Method;
 use unripple_placement::Objective;
 
-/// Targets on which layouts are evaluated, for each that they are placed for.
+/// Number of targets on which layouts are evaluated, for each target that they are optimised for.
 pub(super) const TESTED: usize = 3;
 
-/// Which actuators to place, where they may be, and what for.
+/// Request to place actuators: their number and kind, where they may be, and the objective.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
@@ -18,11 +18,13 @@ pub struct Ask {
     pub surface: SurfaceAsk,
     /// Number of actuators to place.
     pub count: usize,
-    /// Names of actuators of the surface that stay where they are, beside those that are placed; all others are taken away.
+    /// Names of actuators of the surface that are kept where they are, in addition to those that are placed; all others are
+    /// removed.
     pub keep: Vec<String>,
     /// Keep all actuators of the surface.
     pub keep_all: bool,
-    /// Name of an actuator of the surface that those to be placed are like; by default its first actuator.
+    /// Name of the actuator of the surface whose kind and constants the placed ones get; by default its first
+    /// actuator.
     pub like: Option<String>,
     /// Least and greatest distance of the places from the rim, in m; by default anywhere.
     pub rim_m: Option<[f64; 2]>,
@@ -43,19 +45,23 @@ pub struct Ask {
     /// Polygons, such as the screen, in one of which targets must lie, each as its corners in m; by default anywhere at least one shortest
     /// wavelength from the rim.
     pub targets_within_m: Vec<Vec<Place>>,
-    /// Number of targets to place for, if none are given; layouts are evaluated on three times as many others.
+    /// Number of targets that the layout is optimised for, if none are given; layouts are evaluated on three
+    /// times as many others.
     pub targets: usize,
-    /// What is made large.
+    /// The objective that is maximised.
     pub objective: ObjectiveAsk,
     /// For the objective `quantile`: share of the targets that may be worse, 0 to 1.
     pub share: f64,
-    /// Error of the places along each axis, in m, up to which layouts are to be good.
+    /// Largest error of the actuators' places along each axis, in m; layouts are optimised for their mean
+    /// performance with such errors.
     pub mounting_m: f64,
-    /// Relative error of the tension up to which layouts are to be good.
+    /// Largest relative deviation of the tension, up and down; layouts are optimised for the mean over
+    /// tensions in this range.
     pub tension: f64,
     /// Window T in s; by default the one that `design` recommends for evenly spread actuators.
     pub window_s: Option<f64>,
-    /// Number of random layouts that the search begins from, beside the greedy one.
+    /// Number of random layouts from which the search is restarted, in addition to its start from the greedy
+    /// layout.
     pub restarts: usize,
     /// Seed of the random layouts.
     pub seed: u64,
@@ -73,7 +79,7 @@ pub struct Ask {
     pub columns: Option<usize>,
 }
 
-/// What is made large.
+/// The objective that is maximised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ObjectiveAsk {
@@ -87,7 +93,7 @@ pub enum ObjectiveAsk {
 }
 
 impl Ask {
-    /// What is made large.
+    /// The objective that is maximised.
     pub(super) fn objective(&self) -> Objective {
         match self.objective {
             ObjectiveAsk::Mean => Objective::Mean,

@@ -10,7 +10,8 @@ use unripple::focus::{Method, Options, Target};
 /// Number of targets on which drives are computed. With twice as many, this takes twice the time, which is most of the task's.
 const TARGETS: usize = 6;
 
-/// Means over some targets of what drives of a method reach, simulated on modes up to twice the top of the band.
+/// Metrics of the drives of one focusing method, averaged over some targets and simulated on modes up to twice
+/// the top of the band.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ByMethod {
     /// Name of the method.
@@ -24,20 +25,20 @@ pub struct ByMethod {
     pub after: Means,
 }
 
-/// Means over some targets; absent where a figure is not defined at one of them.
+/// Metrics averaged over some targets; absent where a metric is not defined at one of them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Means {
     /// Contrast at the focal instant.
     pub contrast: Option<f64>,
-    /// Contrast of what is felt, in dB.
+    /// Felt contrast, in dB.
     pub felt_contrast_db: Option<f64>,
-    /// Level that is felt at the target at the drive limit, in dB above threshold.
+    /// Felt level at the target with the drive at its limit, in dB above the threshold of touch.
     pub felt_level_db: Option<f64>,
     /// Energy of the drive for a peak velocity of 1 m/s, in squared units of drive times seconds.
     pub energy_for_peak: Option<f64>,
 }
 
-/// Results of every method on the surface as it is and as it was placed.
+/// Results of every method on the surface with its own actuators and with the placed ones.
 pub(super) fn each(
     methods: &[Method],
     setting: &Setting,

@@ -7,7 +7,7 @@ use unripple_plot::{
     Axis, ColourMap, Colours, Dash, Figure, Ink, Line, Mark, Marker, Plot, Points, Rule, Scatter, Symbol,
 };
 
-/// The figures with their names. `one_more` is the objective with one actuator more at each place.
+/// The figures with their names. `one_more` is the objective with one more actuator at each place.
 pub(super) fn all(report: &Report, setting: &Setting, one_more: &[f64]) -> Vec<(&'static str, Figure)> {
     vec![("places", places(report, setting, one_more)), ("numbers", numbers(report))]
 }
@@ -28,7 +28,7 @@ fn places(report: &Report, setting: &Setting, one_more: &[f64]) -> Figure {
         outline: scene.outline.clone(),
         markers,
         colours: Colours {
-            title: format!("{} with one actuator more", capital(&report.objective)),
+            title: format!("{} with one more actuator", capital(&report.objective)),
             map: ColourMap::Sequential,
             // What differs from place to place is small beside what all reach.
             low: (most > least).then_some(least),
@@ -37,7 +37,7 @@ fn places(report: &Report, setting: &Setting, one_more: &[f64]) -> Figure {
         ..Scatter::default()
     };
     let description =
-        "Places of the actuators, with the contrast that one actuator more would give at each place".into();
+        "Places of the actuators, with the contrast that one more actuator would give at each place".into();
     Figure { width_mm: 110.0, description, ..Figure::of(scatter) }
 }
 
@@ -68,7 +68,7 @@ fn numbers(report: &Report) -> Figure {
         let own = Points {
             x: vec![before.actuators.len() as f64],
             y: vec![before.mean_contrast],
-            label: "as the file has them".into(),
+            label: "layout of the file".into(),
             ink: Ink::Palette(2),
             mark: Mark::Diamond,
             ..Points::default()

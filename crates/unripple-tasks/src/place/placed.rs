@@ -13,12 +13,12 @@ pub struct Placed {
     pub at_m: [f64; 2],
 }
 
-/// A layout, and the contrast of time reversal from it at the targets on which layouts are evaluated.
+/// A layout, and the contrast of time reversal from it at the evaluation targets.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Layout {
     /// The actuators, in the order of channels.
     pub actuators: Vec<Placed>,
-    /// Mean of the contrasts, weighted as the targets are.
+    /// Mean of the contrasts, with the weights of the targets.
     pub mean_contrast: f64,
     /// Median of the contrasts.
     pub median_contrast: f64,
@@ -30,7 +30,7 @@ pub struct Layout {
     pub energy_for_peak: f64,
 }
 
-/// Layouts at random places, all among those that were chosen from.
+/// Random layouts, for comparison, at places from which the search could choose.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Random {
     /// Number of random layouts.
@@ -45,61 +45,63 @@ pub struct Random {
     pub energy_for_peak: f64,
 }
 
-/// What the search reached from each of its beginnings.
+/// Values of the objective that the search reached from each of its starting layouts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Restarts {
-    /// The objective on the targets placed for, from the greedy layout and from each random one, before the places left the grid.
+    /// The objective on the targets that layouts are optimised for, from the greedy layout and from each random one, before the
+    /// actuators are moved off the grid.
     pub reached: Vec<f64>,
     /// The best of them.
     pub best: f64,
-    /// The objective of the final layout, between the places of the grid.
+    /// The objective of the final layout, whose actuators were moved off the grid.
     pub polished: f64,
 }
 
-/// The best of all layouts on the grid, where there were few enough to compare all.
+/// The best of all layouts on the grid, if there were few enough to compare all.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Best {
     /// Number of layouts.
     pub layouts: f64,
-    /// The objective of the best on the targets placed for; absent where there were too many.
+    /// The objective of the best of all layouts, on the targets that layouts are optimised for; absent if
+    /// there were too many layouts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub objective: Option<f64>,
-    /// What is known of the layout that was found, in words.
+    /// How the layout that was found compares with the best of all, in words.
     pub certificate: String,
 }
 
 /// A number of actuators, and the contrast of the layout found for it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Number {
-    /// Number of actuators, with those that stay.
+    /// Number of actuators, the kept ones included.
     pub actuators: usize,
-    /// The objective on the targets placed for.
+    /// The objective on the targets that layouts are optimised for.
     pub objective: f64,
-    /// Mean contrast at the targets on which layouts are evaluated.
+    /// Mean contrast at the evaluation targets.
     pub mean_contrast: f64,
-    /// Least contrast there.
+    /// Least contrast at the evaluation targets.
     pub worst_contrast: f64,
 }
 
-/// What errors of the places cost.
+/// Contrast with random errors of the actuators' places.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Build {
     /// Largest error along each axis, in m.
     pub error_m: f64,
-    /// Mean contrast of random builds with such errors, each with responses of its own.
+    /// Mean contrast of layouts with such errors, each driven by its own responses.
     pub mean_contrast: f64,
     /// Standard deviation of their mean contrasts.
     pub deviation: f64,
-    /// Number of random builds.
+    /// Number of layouts with random errors.
     pub builds: usize,
 }
 
-/// Where one actuator more would help most.
+/// The place where one more actuator would improve the objective most.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct More {
     /// The place, in m.
     pub at_m: [f64; 2],
-    /// The objective with an actuator there, on the targets placed for.
+    /// The objective with an actuator there, on the targets that layouts are optimised for.
     pub objective: f64,
 }
 
@@ -137,7 +139,7 @@ impl Random {
 }
 
 impl Build {
-    /// The contrasts of random builds at `aims`.
+    /// The contrasts of layouts with random errors at `aims`.
     pub(super) fn of(error_m: f64, reached: &[Vec<Reached>], aims: &[Aim]) -> Self {
         let (mean_contrast, deviation) = mean_and_deviation(reached, aims);
         Self { error_m, mean_contrast, deviation, builds: reached.len() }

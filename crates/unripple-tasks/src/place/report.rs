@@ -5,7 +5,8 @@ use super::placed::{Best, Build, Layout, More, Number, Random, Restarts};
 use serde::Serialize;
 use unripple::act::Note;
 
-/// A layout, how good it is beside others, and how many actuators would be enough.
+/// The layout that was found, its contrast compared with other layouts, and contrast against the number of
+/// actuators.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
     /// Name of the program.
@@ -18,25 +19,25 @@ pub struct Report {
     pub surface: String,
     /// Number of actuators that were placed.
     pub count: usize,
-    /// Names of the actuators that stay where they are.
+    /// Names of the kept actuators.
     pub kept: Vec<String>,
-    /// Number of places that were chosen from.
+    /// Number of places from which the search chose.
     pub places: usize,
     /// Spacing of the grid of places, in m; absent where places were given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch_m: Option<f64>,
-    /// What was made large, in words.
+    /// The objective that was maximised, in words.
     pub objective: String,
     /// Window T, in s.
     pub window_s: f64,
     /// Reason for the default window; absent if the request sets the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window_why: Option<String>,
-    /// Number of targets that the actuators were placed for.
+    /// Number of targets that the layout was optimised for.
     pub placed_for: usize,
     /// Number of targets on which layouts are evaluated.
     pub evaluated_on: usize,
-    /// Whether these are other targets.
+    /// Whether the evaluation targets are other ones than those that the layout was optimised for.
     pub held_out: bool,
     /// The layout that the surface has; absent where it has no actuators, or some that cannot be compared with those placed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -46,15 +47,15 @@ pub struct Report {
     /// Random layouts of as many actuators, at places of the grid; absent where none was found that keeps the least distance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub random: Option<Random>,
-    /// What the search reached from each beginning.
+    /// Values of the objective that the search reached from each starting layout.
     pub restarts: Restarts,
-    /// How good any layout on the grid can be, as far as that is known.
+    /// The best of all layouts on the grid, if there were few enough to compare all.
     pub certificate: Best,
     /// Layouts of every number of actuators, each made from the one before.
     pub each_number: Vec<Number>,
-    /// What errors of the places cost.
+    /// Contrast with random errors of the actuators' places.
     pub mounting: Vec<Build>,
-    /// Where one actuator more would help most; absent where no place is left.
+    /// The place where one more actuator would improve the objective most; absent if no place is left.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub one_more: Option<More>,
     /// Results by method; empty if no method was asked for.

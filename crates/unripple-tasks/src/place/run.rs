@@ -61,7 +61,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(report)
 }
 
-/// The search, the surface as placed, and the objective with one actuator more at every place.
+/// The search, the surface with the placed actuators, and the objective with one more actuator at every
+/// place.
 fn found(
     ask: &Ask,
     setting: &Setting,
@@ -181,7 +182,7 @@ fn certificate(search: &Search<'_>, count: usize, starts: &[Found], best: Option
     Best { layouts, objective: best.map(|best| best.score), certificate }
 }
 
-/// The best place for one actuator more.
+/// The best place for one more actuator.
 fn more(search: &Search<'_>, scores: &[f64], found: &Found) -> Option<More> {
     let free = (search.kept..search.at.len()).filter(|b| search.is_free(&found.actuators, *b));
     let best = free.reduce(|best, b| if scores[b] > scores[best] { b } else { best })?;

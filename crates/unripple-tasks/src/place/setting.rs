@@ -28,7 +28,7 @@ const LARGE_DISC: f64 = 0.4;
 pub(super) struct Setting {
     /// The surface as it is.
     pub surface: Surface,
-    /// The models of the surface that the layouts are to be good on: with the actuators that stay alone.
+    /// The models of the surface that layouts are optimised for, with the kept actuators only.
     pub plants: Vec<Plant>,
     /// What an actuator to be placed is like.
     pub kind: Actuator,
@@ -51,7 +51,7 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    /// What a request asks for, after a check of its numbers.
+    /// The settings for a request, after a check of its values.
     ///
     /// # Errors
     /// [`TaskError::Ask`] of numbers and names that make no sense; those of solving for modes.
@@ -111,7 +111,7 @@ impl Setting {
         ask.apart_m.unwrap_or(2.0 * radius)
     }
 
-    /// What the search leaves out of its models, and what is less accurate than usual.
+    /// Notes on effects that the search leaves out, and on results that are less accurate than usual.
     pub fn notes(&self) -> Vec<Note> {
         let mut notes = Vec::new();
         let error = self.plants[0].frequency_error();
@@ -138,20 +138,23 @@ impl Setting {
         let radius = conditions(&self.surface).focal_radius();
         let covered = PI * radius * radius / self.surface.outline.area();
         let text = format!(
-            "a focal disc, of radius {:.1} mm, has {:.0} % of the area of the surface: contrasts are ratios to the little that is left              outside, differ much between targets, and a layout that is good for some may not be for others; a band up to higher frequencies              has smaller discs",
+            "a focal disc, of radius {:.1} mm, has {:.0} % of the area of the surface: contrasts are ratios to the little that is left \
+             outside, differ much between targets, and a layout that is good for some may not be for others; a band up to higher \
+             frequencies has smaller discs",
             1e3 * radius,
             100.0 * covered
         );
         (covered > LARGE_DISC).then(|| Note { topic: "focal disc", text })
     }
 
-    /// The surface's own actuators that do not stay.
+    /// The surface's own actuators that are not kept.
     pub fn moved(&self) -> impl Iterator<Item = &Actuator> {
         let stay = &self.plants[0].surface().actuators;
         self.surface.actuators.iter().filter(move |actuator| !stay.contains(actuator))
     }
 
-    /// Random builds of a layout, with errors of its places of up to `error` (m) along each axis.
+    /// Layouts with random errors of the actuators' places, up to `error` (m) along each axis: `builds` of
+    /// them.
     pub fn perturbed(&self, places: &[Point], error: f64, builds: usize, seed: u64) -> Vec<Vec<Point>> {
         let mut random = Random::seeded(seed);
         let mut off = |place: &Point| {
@@ -163,7 +166,8 @@ impl Setting {
         (0..builds).map(|_| places.iter().map(&mut off).collect()).collect()
     }
 
-    /// The surface with others at `places` for the actuators that do not stay, in their channels and by their names while these last.
+    /// The surface with new actuators at `places` (m) instead of those that are not kept; they take over the channels and names of
+    /// these, as far as there are any.
     pub fn built(&self, places: &[Point]) -> Surface {
         let stay = &self.plants[0].surface().actuators;
         let put = |name: String, at: &Point| Actuator { name, at: *at, ..self.kind.clone() };
@@ -251,7 +255,7 @@ fn bearable(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(), TaskErr
     Ok(())
 }
 
-/// The actuators that stay.
+/// The kept actuators.
 fn kept(ask: &Ask, surface: &Surface) -> Result<Vec<Actuator>, TaskError> {
     ask.keep.iter().try_for_each(|name| named(surface, name, "keep").map(drop))?;
     let stays = |actuator: &&Actuator| ask.keep_all || ask.keep.contains(&actuator.name);
@@ -270,14 +274,14 @@ fn named<'a>(surface: &'a Surface, name: &str, field: &'static str) -> Result<&'
     })
 }
 
-/// What the actuators that are placed are like.
+/// The actuator whose kind and constants the placed ones get.
 fn kind(ask: &Ask, surface: &Surface) -> Result<Actuator, TaskError> {
     if let Some(name) = &ask.like {
         return named(surface, name, "like").cloned();
     }
     let first = surface.actuators.first().cloned();
     first.ok_or_else(|| {
-        TaskError::ask("like", "a surface with an actuator, which those placed are like", "none")
+        TaskError::ask("like", "a surface with an actuator, whose kind those placed get", "none")
     })
 }
 
@@ -305,7 +309,7 @@ fn places(
     Ok(places)
 }
 
-/// The targets to place for, and those on which layouts are evaluated.
+/// The targets that layouts are optimised for, and those on which they are evaluated.
 fn targets(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(Vec<Aim>, Vec<Aim>), TaskError> {
     let outline = &surface.outline;
     if !ask.points_m.is_empty() {
@@ -336,7 +340,8 @@ fn targets(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(Vec<Aim>, V
     Ok((trained, aims.collect()))
 }
 
-/// The models of the surface: as it is, and where an error of the tension is to be borne, with more and less of it too.
+/// The models of the surface: with its nominal tension, and if the tension may deviate, also with a lower and a higher
+/// one.
 fn plants(ask: &Ask, kept: &Surface, kind: &Actuator) -> Result<Vec<Plant>, TaskError> {
     // A uniform error by three points: Gauss-Legendre, of degree five.
     let points = [(-(0.6_f64.sqrt()), 5.0 / 18.0), (0.0, 4.0 / 9.0), (0.6_f64.sqrt(), 5.0 / 18.0)];

@@ -13,7 +13,7 @@ impl Report {
         let mut all =
             format!("# {}: {} actuators placed\n\n```text\n{}```\n", self.surface, self.count, of(self));
         for (file, what) in [
-            ("places.png", "The layout, and what one actuator more would add at each place"),
+            ("places.png", "The layout, and the contrast with one more actuator at each place"),
             ("numbers.png", "Contrast against the number of actuators"),
         ] {
             if self.files.iter().any(|name| name == file) {
@@ -36,7 +36,7 @@ fn of(report: &Report) -> String {
     let pitch = report.pitch_m.map_or(String::new(), |pitch| format!(", {:.2} mm apart", 1e3 * pitch));
     let kept = match report.kept.as_slice() {
         [] => String::new(),
-        kept => format!(", beside {} that stay", kept.len()),
+        kept => format!(", in addition to {} kept ones", kept.len()),
     };
     let others = if report.held_out { " others" } else { "" };
     let _ = writeln!(
@@ -66,7 +66,7 @@ fn of(report: &Report) -> String {
     text
 }
 
-/// The layouts beside each other.
+/// The table of layouts: contrast and energy of each.
 fn layouts(text: &mut String, report: &Report) {
     let reference =
         report.random.as_ref().map_or(report.after.energy_for_peak, |random| random.energy_for_peak);
@@ -82,7 +82,7 @@ fn layouts(text: &mut String, report: &Report) {
         );
     };
     row("placed", &report.after);
-    report.before.iter().for_each(|before| row("as the file has them", before));
+    report.before.iter().for_each(|before| row("layout of the file", before));
     if let Some(random) = &report.random {
         let _ = writeln!(
             text,
@@ -95,7 +95,7 @@ fn layouts(text: &mut String, report: &Report) {
         );
     }
     for build in &report.mounting {
-        let name = format!("placed within {} mm", 1e3 * build.error_m);
+        let name = format!("errors up to {} mm", 1e3 * build.error_m);
         let _ = writeln!(
             text,
             "{name:<22} {:7.1}                        (deviation of the mean {:.1}, {} builds)",
@@ -103,16 +103,16 @@ fn layouts(text: &mut String, report: &Report) {
         );
     }
     let [x, y] = report.after.worst_at_m.map(|x| 1e3 * x);
-    let _ = writeln!(text, "\nworst target of the placed: {x:.1}, {y:.1} mm");
+    let _ = writeln!(text, "\nworst target of the placed layout:  {x:.1}, {y:.1} mm");
 }
 
-/// What the search knows of itself.
+/// Lines on the search: the values that it reached, and whether the layout is the best of all.
 fn search(text: &mut String, report: &Report) {
     let restarts = &report.restarts;
     let least = restarts.reached.iter().copied().fold(f64::INFINITY, f64::min);
     let _ = writeln!(
         text,
-        "search: {} beginnings reached {least:.2} to {:.2} on the grid, {:.2} between its places; certificate: {}",
+        "search: {} starting layouts reached {least:.2} to {:.2} on the grid, the final layout {:.2} off the grid; certificate: {}",
         restarts.reached.len(),
         restarts.best,
         restarts.polished,
@@ -120,7 +120,7 @@ fn search(text: &mut String, report: &Report) {
     );
     if let Some(more) = &report.one_more {
         let [x, y] = more.at_m.map(|x| 1e3 * x);
-        let _ = writeln!(text, "one actuator more: best at {x:.1}, {y:.1} mm, {:.2}", more.objective);
+        let _ = writeln!(text, "one more actuator: best at {x:.1}, {y:.1} mm, with {:.2}", more.objective);
     }
 }
 
