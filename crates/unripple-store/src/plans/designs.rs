@@ -54,7 +54,7 @@ impl Designs {
         self.len() == 0
     }
 
-    /// What varies, each key and field once: in the order of the axes, or as the list names them first.
+    /// The keys and fields that vary, each once: in the order of the axes, or of first mention in the list.
     pub fn varied(&self) -> Vec<&Varied> {
         match self {
             Self::Grid(axes) | Self::Sobol { axes, .. } => axes.iter().map(|axis| &axis.varied).collect(),

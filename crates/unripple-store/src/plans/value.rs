@@ -6,7 +6,7 @@ use crate::surface::reader::{Entry, Faults};
 use serde_json::{Map, Number, Value};
 use toml::de::DeValue;
 
-/// Most designs of a plan: of a second each, those of four months.
+/// Largest number of designs of a plan: if each takes a second, they take four months.
 pub const MOST_DESIGNS: usize = 10_000_000;
 
 /// The name among `known` that is nearest to one that is not, in quotes.

@@ -6,7 +6,7 @@ use crate::record::{Request, Visit};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Which plan to compute, all of it or one shard, and where its rows go.
+/// Request to compute a plan, all of it or one shard, with the folder for its results.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {

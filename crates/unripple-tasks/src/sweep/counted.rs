@@ -23,7 +23,7 @@ pub struct Named {
     pub value: Value,
 }
 
-/// Where a figure is least and greatest.
+/// Least and greatest value of one result (figure) over all designs, and the designs that have them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Extreme {
     /// JSON pointer of the figure in a report.

@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use unripple_store::{PlanFile, Varied};
 
-/// One design of a plan: its values, and a hash of all that its figures follow from.
+/// One design of a plan: its values, and a hash of everything that determines its results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     /// Index of the design, counted from 0.

@@ -38,7 +38,7 @@ struct Kept<'p> {
 }
 
 impl<'p> Folder<'p> {
-    /// Opens the folder of a plan, or begins it: where nothing is yet, or the same plan.
+    /// Opens or creates the folder of a plan; an existing folder must be empty or belong to the same plan.
     ///
     /// # Errors
     /// [`TaskError::Input`] if the folder is of another plan; [`TaskError::Work`] if other things are in it or it cannot be written to.
@@ -96,7 +96,7 @@ impl<'p> Folder<'p> {
         Ok((0..self.plan.shards()).filter(|shard| !done.contains(shard)).collect())
     }
 
-    /// Computes a shard, designs that are kept already left out, and puts its rows in place.
+    /// Computes those designs of a shard that have no stored row yet, and stores the rows of the whole shard.
     ///
     /// # Errors
     /// [`TaskError::Cancelled`]; [`TaskError::Work`] if the rows cannot be written.
@@ -112,7 +112,7 @@ impl<'p> Folder<'p> {
         self.put(shard, &rows)
     }
 
-    /// Puts the rows of a shard in place, which is then done, and removes what was kept of single designs.
+    /// Stores the rows of a shard, which is then done, and removes the rows stored for single designs of it.
     ///
     /// # Errors
     /// [`TaskError::Work`] if they cannot be written.
@@ -128,7 +128,7 @@ impl<'p> Folder<'p> {
         Ok(())
     }
 
-    /// Keeps the row of a design until its shard is done.
+    /// Stores the row of a single design until its shard is done.
     ///
     /// # Errors
     /// [`TaskError::Work`] if it cannot be written.
@@ -139,7 +139,7 @@ impl<'p> Folder<'p> {
         Ok(write_durably(self.row_file(row.index), |file| writeln!(file, "{line}"))?)
     }
 
-    /// The row that is kept of a design; `None` if there is none.
+    /// The stored row of a single design; `None` if there is none.
     ///
     /// # Errors
     /// [`TaskError::Input`] if it is not what this program writes.
@@ -160,7 +160,7 @@ impl<'p> Folder<'p> {
         rows_of(self.plan, &path, &text, self.plan.shard(shard))
     }
 
-    /// Shows `take` all rows in order, once all shards are done.
+    /// Passes all rows to `take`, in the order of the designs; all shards must be done.
     ///
     /// # Errors
     /// Those of [`rows`](Self::rows) and of `take`.

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// What one process computes of a sweep, with its text for a command line.
+/// The part of a sweep that one process computes, which can be written as an argument of a command line.
 ///
 /// ```
 /// use unripple_tasks::sweep::Piece;

@@ -69,7 +69,7 @@ fn tasks() -> Vec<PlanTask> {
 }
 
 impl Plan {
-    /// Opens a plan from its file, and its surface.
+    /// Reads a plan from its file, and the surface that it names.
     ///
     /// # Errors
     /// [`TaskError::Faults`] with all faults of the file; [`TaskError::Input`] of a surface that is not there, of keys that surface files do not
@@ -181,7 +181,7 @@ impl Plan {
         find(&self.file.task).ok_or_else(|| unknown(&self.file.task, &[]))
     }
 
-    /// SHA-256, in hexadecimal digits, of all that the table follows from.
+    /// SHA-256, in hexadecimal digits, of everything that determines the table.
     pub fn hash(&self) -> &str {
         &self.hash
     }

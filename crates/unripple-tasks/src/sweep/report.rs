@@ -14,7 +14,7 @@ const LISTED: usize = 20;
 /// Failures that the text report has; JSON has more.
 const TOLD: usize = 3;
 
-/// How far a sweep is, which designs failed, and where each figure is least and greatest.
+/// Report on a sweep: designs done, failed and missing, and the least and greatest value of each result.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// Name of the program.
@@ -27,7 +27,7 @@ pub struct Report {
     pub plan: String,
     /// SHA-256 of the plan with its surface, in hexadecimal digits.
     pub plan_sha256: String,
-    /// Name of the task that designs were given to.
+    /// Name of the task that is run for each design.
     pub task: String,
     /// The surface as the plan names it.
     pub surface: String,
@@ -35,17 +35,18 @@ pub struct Report {
     pub designs: usize,
     /// Number of shards of the plan.
     pub shards: usize,
-    /// What the modes of the first design cost on this machine, if designs were only counted and it is known.
+    /// Estimated cost of computing the modes of the first design on this machine; absent unless designs are
+    /// only counted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_modes: Option<Estimate>,
-    /// The only shard that was asked for, counted from 0; absent if all were.
+    /// The shard that was requested, counted from 0; absent if all were.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shard: Option<usize>,
     /// Number of designs that have a row.
     pub done: usize,
     /// Number of designs without a row yet.
     pub missing: usize,
-    /// Number of rows with an error: of all once none is missing, before of the shard that was asked for.
+    /// Number of rows with an error: of all rows once none is missing; before that, of the requested shard.
     pub failed: usize,
     /// The first designs that failed.
     pub failures: Vec<FailedDesign>,

@@ -1,4 +1,4 @@
-//! Rows of a sweep: what came of a design.
+//! Rows of a sweep: the results of a design.
 
 use super::flat;
 use super::pairs::Pairs;
@@ -12,7 +12,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use unripple::core::{Cache, Observed};
 
-/// What came of one design. Rows hold no times, so that they are equal to the last bit whoever computes them.
+/// Results of one design, or the error with which it failed. Rows contain no computing times, so that they
+/// are equal to the last bit on whatever process or machine they are computed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Index of the design, counted from 0.
@@ -26,7 +27,7 @@ pub struct Row {
     /// Figures of the report by their JSON pointers, in SI units.
     #[serde(default, skip_serializing_if = "Pairs::is_empty")]
     pub figures: Pairs,
-    /// Number of long lists and texts of the report that are no figures.
+    /// Number of long lists and texts of the report that are left out of the row.
     #[serde(default, skip_serializing_if = "is_none")]
     pub left_out: usize,
     /// Why the design failed; `None` if it did not.
@@ -39,7 +40,7 @@ fn is_none(count: &usize) -> bool {
 }
 
 impl Row {
-    /// Gives a design to its task. An error of the task, or a panic, makes a row.
+    /// Runs the plan's task for a design. An error of the task, or a panic, becomes a row with that error.
     ///
     /// # Errors
     /// [`TaskError::Cancelled`].

@@ -1,4 +1,4 @@
-//! Computes the rows of a sweep, or a piece of them, and the table once all are there.
+//! Computes the rows of a sweep, or a part of them, and the table once all rows are computed.
 
 use super::folder::Folder;
 use super::table::TABLE;
@@ -13,8 +13,9 @@ use unripple_store::write_file;
 /// Name of the report in the folder.
 const REPORT: &str = "sweep.json";
 
-/// Gives the designs of a plan to its task, shard after shard, in this process, and writes the table once all rows are there. What is in the folder
-/// already is not computed again, so that a sweep goes on after any kill; a design that fails is a row with its error.
+/// Runs a plan's task for each design, shard after shard, in this process, and writes the table once all rows are computed. Shards that are
+/// already in the folder are not computed again, so that a sweep continues after it was killed; a design that fails gets a row with its
+/// error.
 ///
 /// ```
 /// use unripple_tasks::{Silent, sweep};
@@ -99,7 +100,8 @@ pub fn run_with(
     Ok(report)
 }
 
-/// Computes a piece of a sweep: what one of several processes does. The table is left to the process that started them.
+/// Computes the part of a sweep that is assigned to one of several processes. The table is left to the process that
+/// started them.
 ///
 /// # Errors
 /// Those of [`run`].

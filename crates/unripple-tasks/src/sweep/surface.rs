@@ -20,7 +20,8 @@ pub(super) enum Ground {
 }
 
 impl Ground {
-    /// The surface that a plan in this folder names, and the SHA-256 of what it is read from, in hexadecimal digits.
+    /// The surface that a plan in this folder names, and the SHA-256 of the files that it is read from, in
+    /// hexadecimal digits.
     ///
     /// # Errors
     /// [`TaskError::Input`] if there is no such surface or it cannot be read.
