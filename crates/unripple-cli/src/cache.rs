@@ -5,7 +5,7 @@ use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 
-/// Tells what the cache holds, or empties it.
+/// Prints the size of the cache, or empties it.
 pub fn run(options: &CacheOptions, common: &Common) -> Result<(), CliError> {
     common.without_surface()?;
     output::report(common.json, &unripple_tasks::cache::look(options.empty)?)

@@ -4,7 +4,7 @@ use crate::error::CliError;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Flag that the first signal sets, for a command that then stops by itself.
+/// Flag that the first signal sets, for a command that watches it and then stops by itself.
 static WISHED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
 /// The first signal, if it only set the flag; 0, which is no signal, before.
@@ -64,8 +64,8 @@ fn beside(name: &str, work: impl FnOnce() + Send + 'static) -> Result<(), CliErr
     Ok(())
 }
 
-/// Sets the flag of [`wished`] when standard input ends, for a command that then stops by itself: a pipe ends when the last program that
-/// holds its other end is gone, also one that was killed.
+/// Sets the flag of [`wished`] when standard input ends, for a command that then stops by itself. A pipe ends when the last program that
+/// holds its other end has ended or was killed.
 pub fn wish_when_input_ends() -> Result<(), CliError> {
     let wished = wished();
     beside("input", move || {
@@ -75,8 +75,8 @@ pub fn wish_when_input_ends() -> Result<(), CliError> {
     })
 }
 
-/// Ends the program when standard input ends, for a process that must not outlive whoever started it: a pipe ends when the last program that
-/// holds its other end is gone, also one that was killed.
+/// Ends the program when standard input ends, for a process that must not outlive the program that started it. A pipe ends when the last
+/// program that holds its other end has ended or was killed.
 pub fn end_when_input_ends() -> Result<(), CliError> {
     beside("input", || {
         // Nobody reads what comes; what cannot be read has ended.
@@ -94,7 +94,8 @@ fn end(signal: i32) -> ! {
     std::process::exit(128 + signal);
 }
 
-/// Ends the program as the first signal would have, if there was one: for a command that was to stop by itself and had nothing yet to stop.
+/// Ends the program if a signal has arrived that a command should have answered by stopping its task, but that came before the task had
+/// begun.
 pub fn end_as_wished() {
     match FIRST.load(Ordering::Relaxed) {
         0 => {}
@@ -102,7 +103,7 @@ pub fn end_as_wished() {
     }
 }
 
-/// Flag that the first signal sets, for a command that then stops by itself.
+/// Flag that the first signal sets, for a command that watches it and then stops by itself.
 pub fn wished() -> Arc<AtomicBool> {
     WISHED.get_or_init(Arc::default).clone()
 }

@@ -55,7 +55,7 @@ pub const COMMIT: &str = env!("UNRIPPLE_COMMIT");
 /// A hash of all sources that the program was built from; empty where that is not known.
 pub const SOURCES: &str = env!("UNRIPPLE_SOURCES");
 
-/// Does what a command line asks for, prints what comes of it, and returns the exit code: 0, 1 or 2. The first argument is the program's own
+/// Runs the command of a command line, prints its results, and returns the exit code: 0, 1 or 2. The first argument is the program's own
 /// name, as in [`std::env::args_os`]. To be called once in a process: it handles the signals that end the program, which end the process.
 ///
 /// ```

@@ -31,7 +31,7 @@ pub fn talk() -> Talk {
     TALK.get().copied().unwrap_or_default()
 }
 
-/// Time after which a task's stages are told where there is no terminal: shorter ones are over before they are read.
+/// Time after which a task's stages are reported if there is no terminal: shorter tasks end before a line is read.
 const LONG: Duration = Duration::from_secs(2);
 
 /// Least and most time between lines on the same stage. A task that takes seconds is not silent for longer than people wait without doubt,
@@ -42,7 +42,7 @@ const BETWEEN: [Duration; 2] = [Duration::from_secs(3), Duration::from_secs(20)]
 /// half as many.
 const RARER: f64 = 0.05;
 
-/// Progress of a task that is printed line by line. Where it ends up is the caller's: every method returns the line to be printed, if there is one.
+/// Progress of a task that is reported in lines. Every method returns the line that the caller should print, if there is one.
 #[derive(Debug)]
 pub struct Lines {
     began: Instant,
@@ -55,12 +55,12 @@ pub struct Lines {
     share: Option<f64>,
     /// Whether a line has named the stage.
     named: bool,
-    /// Whether stages are told from the beginning, with their times.
+    /// Whether all stages and parts are reported, with their times.
     all: bool,
 }
 
 impl Lines {
-    /// Lines where they are wanted: without a terminal, or where everything is to be told.
+    /// Progress in lines if standard error is not a terminal, or with `--verbose`; otherwise `None`.
     pub fn wanted() -> Option<Self> {
         let all = talk() == Talk::Verbose;
         let wanted = all || talk() == Talk::Usual && !stderr().is_terminal();
@@ -72,7 +72,7 @@ impl Lines {
         Self { began: now, told: now, stage, part, since: now, share: None, named: false, all }
     }
 
-    /// A stage begins.
+    /// Records that a stage begins, at the time `now`.
     pub fn stage(&mut self, what: &str, now: Instant) -> Option<String> {
         what.clone_into(&mut self.stage);
         (self.part, self.share, self.since) = (String::new(), None, now);
@@ -85,7 +85,8 @@ impl Lines {
         }
     }
 
-    /// A part of the stage begins. Many are over at once, and are told only where all is, or when it is time for a line.
+    /// Records that a part of the stage begins. Since many parts take no time, it gives a line only with `--verbose`, or
+    /// when a line is due.
     pub fn part(&mut self, what: &str, now: Instant) -> Option<String> {
         what.clone_into(&mut self.part);
         (self.share, self.since) = (None, now);
@@ -96,19 +97,20 @@ impl Lines {
         Some(self.timed(&part_of(&self.stage, what), now))
     }
 
-    /// A share of the stage or part is done, from 0 to 1.
+    /// Records that a share (0 to 1) of the stage or part is done.
     pub fn done(&mut self, share: f64, now: Instant) -> Option<String> {
         self.share = Some(share);
         self.beat(now)
     }
 
-    /// The last stage is over, and none follows.
+    /// Records that the last stage has ended.
     pub fn over(&mut self) -> Option<String> {
         (self.stage, self.part, self.share) = (String::new(), String::new(), None);
         None
     }
 
-    /// The line that is due, if one is: to be asked for every so often, since long work may tell nothing.
+    /// The line that is due at the time `now`, if one is. To be called at short intervals, since a long
+    /// computation may report nothing itself.
     pub fn beat(&mut self, now: Instant) -> Option<String> {
         let since = now - self.told;
         let due = match self.named {

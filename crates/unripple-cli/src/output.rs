@@ -15,7 +15,7 @@ pub fn print(bytes: &[u8]) -> Result<(), CliError> {
     }
 }
 
-/// Does a task before people's eyes, and prints its report once nothing else is drawn there.
+/// Runs a task while its progress is shown, and prints its report after the progress bar is removed.
 pub fn perform<A: Request, R: Report>(
     as_json: bool,
     ask: &A,
@@ -26,7 +26,8 @@ pub fn perform<A: Request, R: Report>(
     recorded(&done?, record.as_ref())
 }
 
-/// The record of a task that is about to be done, where it will be printed: files that are read may be large.
+/// The record of a task that is about to run; `None` unless the report is printed as JSON, since to hash
+/// large input files takes time.
 pub fn record(as_json: bool, ask: &impl Request) -> Result<Option<Record>, CliError> {
     Ok(as_json.then(|| Record::of(ask)).transpose()?)
 }
@@ -45,7 +46,7 @@ pub fn report(as_json: bool, report: &impl Report) -> Result<(), CliError> {
     failure(report)
 }
 
-/// Prints text in the words of the command line.
+/// Prints text, with the names of a request's fields replaced by those of options.
 fn say(text: &str) -> Result<(), CliError> {
     print(format!("{}\n", options::spoken(text.trim_end())).as_bytes())
 }

@@ -12,7 +12,7 @@ use unripple_tasks::{Progress, part_of};
 /// Steps of a bar, more than a terminal has columns.
 const STEPS: u64 = 1000;
 
-/// Interval at which it is looked whether a line is due: a fraction of the seconds between lines.
+/// Interval at which is checked whether a line is due: a fraction of the seconds between lines.
 const LOOK: Duration = Duration::from_millis(250);
 
 /// Handle of the progress bar, if one is drawn, for code that has to print something meanwhile.
@@ -24,7 +24,7 @@ impl Bar {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Runs `work` while the bar is hidden, such as asking people something and waiting for the answer.
+    /// Runs `work`, such as a question to the user, while the bar is hidden.
     pub fn aside<T>(&self, work: impl FnOnce() -> T) -> T {
         match &*self.get() {
             Some(bar) => bar.suspend(work),
@@ -51,7 +51,7 @@ impl Default for Terminal {
     }
 }
 
-/// Prints the lines that are due, also while a task tells nothing, until nobody shows its progress any more.
+/// Prints the lines that are due, even while a task reports nothing, until the progress is no longer shown.
 fn keep_telling(shown: Weak<Shown>) {
     let tell = move || {
         loop {
@@ -68,15 +68,15 @@ fn keep_telling(shown: Weak<Shown>) {
 }
 
 impl Terminal {
-    /// Progress for a task that goes on until it is stopped: the first signal cancels the task instead of ending the program, and only what
-    /// the task tells is told, since its last stage lasts as long as people like.
+    /// Progress for a task that runs until it is stopped: the first signal cancels the task instead of ending the program. Only the task's
+    /// own messages are printed, since its last stage has no expected end.
     pub fn that_stops() -> Self {
         let mut terminal = Self::quiet_between();
         terminal.wished = Some(crate::interrupt::wished());
         terminal
     }
 
-    /// Progress that shows nothing between what a task tells.
+    /// Progress that prints nothing between the messages of a task.
     fn quiet_between() -> Self {
         let state = State { lines: Lines::wanted(), stage: String::new(), measured: false };
         let shown = Arc::new(Shown { bar: Bar::default(), state: Mutex::new(state) });

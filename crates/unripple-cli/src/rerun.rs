@@ -10,7 +10,7 @@ use unripple_tasks::record::Request;
 use unripple_tasks::rerun::{self, Ask};
 use unripple_tasks::{observed, play};
 
-/// Does what a report records once more.
+/// Repeats the run that a report records.
 pub fn run(options: &RerunOptions, common: &Common) -> Result<(), CliError> {
     common.without_surface()?;
     let ask = Ask { report: options.report.clone(), output: options.output.clone() };

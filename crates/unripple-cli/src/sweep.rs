@@ -10,7 +10,8 @@ use std::process::Command;
 use unripple_tasks::observed;
 use unripple_tasks::sweep::{self, Ask, Piece, Workers};
 
-/// Computes a plan by processes of this program, one shard in this process, or a piece for the process that started this one.
+/// Computes a plan by several processes of this program, one shard of it in this process, or, if this process was started by
+/// a sweep, the part assigned to it.
 pub fn run(options: &SweepOptions, common: &Common) -> Result<(), CliError> {
     common.without_surface()?;
     let ask = Ask {
