@@ -108,8 +108,8 @@ impl Cached {
         self.result_by(key, work, T::encode, T::decode)
     }
 
-    /// As [`Cached::result`], for a result of which `encode` appends the bytes, and which `decode` makes of them, or `None` if they do not
-    /// fit.
+    /// As [`Cached::result`], for any type of result: `encode` appends the bytes of a result, and `decode` makes the result from these
+    /// bytes, or returns `None` if they are not those of one.
     ///
     /// # Errors
     /// Those of `work`.

@@ -21,11 +21,12 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Floating-point operations per second of the machine on which the laws were measured, in large products of matrices of double
-    /// precision on one processor.
+    /// Floating-point operations per second of the machine on which the costs were measured, in large products of matrices of
+    /// double precision on one processor.
     pub const RATE: f64 = 3e10;
 
-    /// The cost of so many floating-point operations, a pure number, in large products of matrices.
+    /// The cost of large products of matrices that take `operations` floating-point operations in all (a pure
+    /// number).
     pub fn of_operations(operations: f64) -> Self {
         Self { seconds: operations / Self::RATE, bytes: 0.0 }
     }

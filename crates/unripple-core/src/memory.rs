@@ -36,17 +36,18 @@ impl Memory {
     /// Bytes of a GiB, 2³⁰ by definition.
     pub const GIB: f64 = (1u64 << 30) as f64;
 
-    /// So many bytes.
+    /// A memory of `bytes` bytes.
     pub fn of(bytes: f64) -> Self {
         Self(bytes)
     }
 
-    /// The memory that is set for the current thread (see [`Memory::during`]); 4 GiB if none is set.
+    /// The memory that computations on the current thread may take: as set by [`Memory::during`], or else 4
+    /// GiB.
     pub fn here() -> Self {
         HERE.with_borrow(|memory| memory.unwrap_or_default())
     }
 
-    /// Runs `work` on the current thread with this memory set for that thread, and restores the previous one afterwards.
+    /// Runs `work` on the current thread with this memory as its limit, and restores the previous limit afterwards.
     pub fn during<T>(self, work: impl FnOnce() -> T) -> T {
         scope::during(&HERE, Some(self), work)
     }
@@ -56,7 +57,7 @@ impl Memory {
         self.0
     }
 
-    /// Whether so many bytes fit.
+    /// Whether a computation that needs `bytes` bytes fits into this memory.
     pub fn holds(self, bytes: f64) -> bool {
         bytes <= self.0
     }

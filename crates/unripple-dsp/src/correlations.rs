@@ -5,8 +5,8 @@ use unripple_core::Pole;
 /// A two by two matrix, by rows.
 type Square = [[f64; 2]; 2];
 
-/// Sums over samples of the products of any two modes' impulse responses, Σ v_i(n) v_j(n): what time reversal over these samples needs of
-/// the modes.
+/// Sums over samples of the products of any two modes' impulse responses, Σ v_i(n) v_j(n), from which time reversal over these samples is
+/// computed.
 ///
 /// With A and B the free motion of two modes over a sample and S(n) = Σ_{i<n} (A^i k)(B^i l)ᵀ after kicks k and l,
 /// S(2n) = S(n) + A^n S(n) B^nᵀ and S(n+1) = k lᵀ + A S(n) Bᵀ: exact by repeated doubling for every kind of pole, in
@@ -33,7 +33,7 @@ pub struct Correlations {
 }
 
 impl Correlations {
-    /// The sums over `samples` samples from the impulse on, at `rate` samples per second.
+    /// Prepares the sums over the first `samples` samples after the impulse, at `rate` samples per second.
     pub fn new(poles: &[Pole], rate: f64, samples: usize) -> Self {
         let over = |n: usize| poles.iter().map(|pole| pole.step(n as f64 / rate)).collect::<Vec<_>>();
         let length = usize::BITS - samples.leading_zeros();
@@ -48,7 +48,7 @@ impl Correlations {
         }
     }
 
-    /// The sum of two modes, given by the indices of their poles.
+    /// The sum Σ v_i(n) v_j(n) of two modes, given by the indices of their poles.
     pub fn of(&self, i: usize, j: usize) -> f64 {
         let ([a, b], [c, d]) = (self.kicks[i], self.kicks[j]);
         let first = [[a * c, a * d], [b * c, b * d]];

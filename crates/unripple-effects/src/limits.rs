@@ -54,8 +54,7 @@ pub const MOST_EVENTS: usize = 4096;
 /// Largest number of points of a shape that is played on all points at once: the focus uses the responses of each. With twice this
 /// value, such a focus takes twice as long to compute.
 pub const MOST_AT_ONCE: usize = 256;
-/// Greatest number of pulses of a pulse train: at the highest rate they last 17 minutes, and with twice this
-/// value twice as long.
+/// Greatest number of pulses of a pulse train: at the highest rate ([`RATE`]) they last 17 minutes.
 pub const MOST_COUNT: u32 = 1_000_000;
 
 /// Largest number of fingers tracked at once; further ones are ignored until one of these is lifted. With twice this value, calls take up

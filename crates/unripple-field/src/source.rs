@@ -44,7 +44,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// An empty tally for a number `points` of points: all values are 0.
+    /// A tally of `points` points with all values 0.
     pub fn zeros(points: usize) -> Self {
         Self { peak: vec![0.0; points], squares: vec![0.0; points] }
     }

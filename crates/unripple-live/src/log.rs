@@ -91,8 +91,7 @@ impl Log {
         self.playing.remove(&voice);
     }
 
-    /// Removes all drives that do not repeat. To be called when reports were lost, since it is then unknown whether these
-    /// drives began.
+    /// Accounts for lost reports: removes all drives that do not repeat, since it is unknown whether they began.
     pub fn miss(&mut self) {
         self.playing.retain(|_, playing| playing.repeats);
     }

@@ -93,7 +93,7 @@ impl SurfaceModes {
         Self::coupled(&below, &asked, modes)
     }
 
-    /// The modes of the sheet alone up to `top_hz` (Hz), where nothing is known of what loads it.
+    /// The modes of the sheet alone up to `top_hz` (Hz), for callers that do not know its loads.
     pub fn of_sheet(modes: &Modes, top_hz: f64) -> Self {
         let inside = modes.poles().partition_point(|pole| pole.omega <= TAU * top_hz);
         Self {

@@ -137,7 +137,8 @@ impl Desk {
         Ok(Arc::new(self.plan.as_ref().ok_or(none)?.prepare(responses)?))
     }
 
-    /// The plan with which responses are prepared, for use on other threads; `None` without waveforms.
+    /// The plan that partitions and transforms responses for the convolution of waveforms, for use on other
+    /// threads; `None` if the player has no inputs for waveforms.
     pub fn plan(&self) -> Option<&FilterPlan> {
         self.plan.as_ref()
     }

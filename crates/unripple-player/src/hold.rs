@@ -10,9 +10,9 @@ const NEVER: u64 = u64::MAX;
 /// In place of a fade: copies of a drive that have begun play to their end. No fade is as long.
 const RING: u32 = u32::MAX;
 
-/// Handle of a comb, loop or looped waveform, which plays until the handle is stopped or dropped. The player reads the
-/// state of all handles at each block: stopping needs no message and no room in a queue, so it cannot be lost or
-/// refused. It takes effect with the next block.
+/// Handle of a comb (a drive repeated with a period), loop or looped waveform, which plays until the handle is stopped
+/// or dropped. The player reads the state of all handles at each block: stopping needs no message and no room in a
+/// queue, so it cannot be lost or refused. It takes effect with the next block.
 ///
 /// ```
 /// use std::sync::Arc;

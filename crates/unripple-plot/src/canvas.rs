@@ -110,13 +110,13 @@ impl<'a> Text<'a> {
         }
     }
 
-    /// The same text with another end at its place.
+    /// The same text with another horizontal alignment.
     pub fn anchor(mut self, anchor: Anchor) -> Self {
         self.anchor = anchor;
         self
     }
 
-    /// The same text with another height at its place.
+    /// The same text with another vertical alignment.
     pub fn rise(mut self, rise: Rise) -> Self {
         self.rise = rise;
         self
@@ -281,7 +281,7 @@ impl Canvas {
         );
     }
 
-    /// A rectangle filled with colours from its foot to its head.
+    /// A rectangle filled with a gradient of colours from bottom to top.
     pub fn gradient(&mut self, rect: Rect, stops: &[Rgb]) {
         self.clips += 1;
         let _ = write!(

@@ -55,7 +55,8 @@ pub(crate) struct Oklch {
 }
 
 impl Oklch {
-    /// A colour with its hue in degrees.
+    /// A colour from its lightness (0 to 1), its chroma (from 0, about 0.3 at most on a screen) and its hue
+    /// in degrees.
     pub fn new(lightness: f64, chroma: f64, degrees: f64) -> Self {
         Self { lightness, chroma, hue: degrees * PI / 180.0 }
     }

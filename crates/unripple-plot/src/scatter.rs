@@ -12,7 +12,7 @@ use crate::plane::{self, Around, Plane};
 use crate::prepared::{Margins, Prepared};
 use crate::style::Style;
 
-/// Values at points of a surface that are on no grid, a disc of its colour at each, with outline, markers, colour bar and axes as on a map.
+/// Values at scattered points of a surface, each drawn as a disc of its colour, with outline, markers, colour bar and axes as on a map.
 ///
 /// # Example
 /// ```

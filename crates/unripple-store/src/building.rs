@@ -153,8 +153,8 @@ pub(crate) fn sweep(place: &Path) {
     }
 }
 
-/// Removes what killed programs left of the files and folders that they were writing into a folder. What a living program writes stays, and so
-/// does everything else.
+/// Removes unfinished files and folders that killed programs have left in a folder. Those of programs that still run stay, and so does
+/// everything else.
 ///
 /// ```
 /// let folder = std::env::temp_dir().join(format!("unripple-doc-left-{}", std::process::id()));

@@ -44,13 +44,13 @@ const ABANDONED: Duration = Duration::from_secs(3600);
 #[derive(Clone, Debug)]
 pub struct DiskCache {
     folder: PathBuf,
-    /// Bytes of all entries above which the oldest are removed.
+    /// Largest size of all entries, in bytes; beyond it the oldest are removed.
     limit: u64,
     /// The program whose results these are.
     program: String,
 }
 
-/// What a cache holds.
+/// Number and size of the results in a cache.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
     /// Number of entries, of all programs.
@@ -73,7 +73,7 @@ impl DiskCache {
         Self { folder: folder.into(), limit, program: program.into() }
     }
 
-    /// What the cache holds.
+    /// Number and size of the results in the cache.
     ///
     /// # Errors
     /// If the folder exists but cannot be read.
@@ -83,7 +83,7 @@ impl DiskCache {
         Ok(Usage { entries, bytes: files.iter().map(|file| file.bytes).sum() })
     }
 
-    /// Removes all entries, and returns what there was.
+    /// Removes all results from the cache, and returns their number and size.
     ///
     /// # Errors
     /// If the folder cannot be read, or a file cannot be removed.

@@ -8,7 +8,7 @@ use std::ops::Range;
 /// Largest number of faults reported of one file; the rest are counted.
 pub(crate) const MOST_FAULTS: usize = 100;
 
-/// One thing wrong with a TOML file: where, what was found, what was expected, and the nearest thing that is legal.
+/// One fault of a TOML file: its place, what was found, what was expected, and the nearest valid alternative.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Fault {
     /// Path of the key, as in `actuator[3].at_mm`, counted from 0; empty for the whole file.

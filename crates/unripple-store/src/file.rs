@@ -59,8 +59,8 @@ pub fn write_file(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), StoreError
     write_beside(path, |file| file.write_all(bytes).map_err(StoreError::write(path)))
 }
 
-/// As [`write_file`], for a file that `fill` writes bit by bit, and that is on the disk before it has its name: also after a loss of power the file
-/// is complete, or is not there.
+/// As [`write_file`], for a file that `fill` writes in pieces, and that is flushed to the disk before it gets its name: even after a loss
+/// of power the file is complete, or does not exist.
 ///
 /// # Errors
 /// Those of [`write_file`], and [`StoreError::Write`] with an error of `fill`.

@@ -6,8 +6,8 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// Name of the hidden file of an output folder. It lists the files that a run wrote there, so that a later run may
-/// replace them and nothing else.
+/// Name of the hidden file in an output folder that lists the files written there by a run, so that a later run
+/// may replace them and nothing else.
 pub const MARKER: &str = ".unripple";
 
 /// First lines of the hidden file. The number is that of the format.

@@ -1,4 +1,4 @@
-//! The cache of computed modes on this machine: where it is, what it holds, and emptying it.
+//! The cache of computed modes on this machine: its folder, its size, and emptying it.
 
 use crate::TaskError;
 use serde::Serialize;
@@ -14,7 +14,7 @@ pub const VARIABLE: &str = "UNRIPPLE_CACHE";
 /// Largest size of the cache in bytes: the modes of some ten large surfaces. With half this value, five.
 const LIMIT: u64 = 4 << 30;
 
-/// What the cache holds.
+/// Folder, number of results and size of the cache of computed modes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Report {
     /// The folder of the cache; `None` if it is turned off.
@@ -25,7 +25,7 @@ pub struct Report {
     pub bytes: u64,
     /// Size that it grows to before results that were not used for longest are removed, in bytes.
     pub limit_bytes: u64,
-    /// Whether all of them have been removed.
+    /// Whether all results have been removed.
     pub emptied: bool,
 }
 
@@ -39,7 +39,7 @@ pub fn disk() -> Option<Arc<dyn Cache>> {
     Some(cache)
 }
 
-/// What the cache holds; if `empty`, all of it is removed.
+/// Reports the size of the cache of computed modes, and removes all results in it if `empty` is true.
 ///
 /// ```
 /// use unripple_tasks::Report;

@@ -48,7 +48,7 @@ impl TaskError {
         Self::Input(error.to_string())
     }
 
-    /// Error of failed work, from its message.
+    /// Error of a computation or an output that failed, from its message.
     pub fn work(error: impl std::fmt::Display) -> Self {
         Self::Work(error.to_string())
     }

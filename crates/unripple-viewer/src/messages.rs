@@ -16,7 +16,7 @@ use unripple_store::{builtin_effects, to_toml};
 /// Points along each rim that is drawn: at the size of a screen a circle of so many looks round.
 const RIM: usize = 256;
 
-/// Values in messages that do not change with the surface.
+/// The values in messages to pages that stay the same when the surface is edited or replaced.
 #[derive(Clone, Debug)]
 pub struct Settled {
     /// Name of the surface's file or library.

@@ -158,8 +158,8 @@ impl Values {
         (self.drive[driven] + self.sense[heard] + self.level).exp()
     }
 
-    /// Mutable reference to the value of an unknown, in the unit of its field of [`Values`]: SI, or a
-    /// logarithm or share.
+    /// Mutable reference to the value of an unknown, in the unit of the field of [`Values`] that holds it: an
+    /// SI unit, or none for logarithms and shares.
     pub fn of(&mut self, unknown: Unknown) -> &mut f64 {
         match unknown {
             Unknown::Tension => &mut self.tension,

@@ -113,9 +113,9 @@ impl Telling<'_> {
         all
     }
 
-    /// Delay of each sweep relative to the loudest one, from a loopback recording: one input that carries the sum of the sent signals, or
-    /// one of them. `length` is the number of samples of the deconvolved recording that are compared. `None` for sweeps that the input does
-    /// not carry.
+    /// Delay, in samples, of each sweep relative to the loudest one, from a loopback recording: one input that carries the sum of the sent
+    /// signals, or one of them. `length` is the number of samples of the deconvolved recording that are compared. `None` for sweeps that
+    /// the input does not carry.
     pub fn beside_the_loudest(&self, length: usize) -> Vec<Option<Apart>> {
         let Some(whole) = self.wholes.first() else { return vec![None; self.starts.len()] };
         let cuts: Vec<Vec<f64>> =

@@ -37,8 +37,8 @@ pub(crate) struct Held {
 }
 
 impl Held {
-    /// Solves for the least z with these levels by Gram-Schmidt orthogonalisation, done twice for accuracy.
-    /// Row k of `rows` holds the change of level k per whitened coefficient.
+    /// Solves for the vector z of least norm that has these levels, by Gram-Schmidt orthogonalisation, done
+    /// twice for accuracy. Row k of `rows` holds the change of level k per whitened coefficient.
     ///
     /// # Errors
     /// [`FocusError::Inseparable`].

@@ -10,7 +10,8 @@ use unripple_core::{Drive, ModalResponses, Point, Responses};
 use unripple_dsp::Weighting;
 use unripple_linalg::{Lu, Mat, product};
 
-/// Weighed displacement at a point, at every sample of the drive and twice as long again.
+/// Displacement at a point weighted by the threshold of touch, at every sample from the start of the drive
+/// until twice its length after its end.
 pub fn felt(modal: &ModalResponses, drive: &Drive, at: Point, options: &FeltOptions) -> Vec<f64> {
     let (length, rate) = (3 * drive.samples(), drive.rate());
     let mut row = vec![0.0; modal.poles.len()];

@@ -36,9 +36,9 @@ pub(super) struct Active {
 }
 
 impl Active {
-    /// The coordinates for the combinations `shapes`. Above the angular frequency `dynamic` (rad/s), only
-    /// the combinations that the loads excite are kept. `at_loads` holds the mode shapes averaged over the
-    /// loads' footprints, loads x modes.
+    /// The coordinates of the sheet that couple to the loads, from combinations of its modes (`shapes`).
+    /// Above the angular frequency `dynamic` (rad/s), only the combinations that the loads excite are kept.
+    /// `at_loads` holds the mode shapes averaged over the loads' footprints, loads x modes.
     pub fn of(shapes: &[Shape], at_loads: MatRef<'_, f64>, dynamic: f64) -> Self {
         let (low, high): (Vec<&Shape>, Vec<&Shape>) = shapes.iter().partition(|s| s.pole.omega <= dynamic);
         let vectors = moved(&high, at_loads);

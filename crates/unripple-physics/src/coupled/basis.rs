@@ -24,8 +24,8 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// Value of the combination averaged over a footprint, from the modes' averages (`row`) over that
-    /// footprint.
+    /// This combination of mode shapes averaged over a footprint, from the averages of the single mode shapes
+    /// over it (`row`).
     pub fn weight(&self, row: unripple_linalg::RowRef<'_, f64>) -> f64 {
         self.parts.iter().map(|(mode, part)| part * row[*mode]).sum()
     }

@@ -51,7 +51,8 @@ impl Conservative {
         })
     }
 
-    /// Whether a mode is a rigid-body motion, whose frequency is one by convention.
+    /// Whether a mode is a rigid-body motion: its frequency is 0, for which [`Conservative::of`] puts a small
+    /// value.
     pub fn is_rigid(&self, mode: usize) -> bool {
         self.omegas[mode] <= 1.5 * RIGID * self.omegas.last().copied().unwrap_or(0.0)
     }

@@ -113,7 +113,7 @@ impl<'a> State<'a> {
         circuit.force_constant / circuit.inductance.sqrt() * self.modes.at_loads[(load, mode)]
     }
 
-    /// A Y of states, the columns of Y.
+    /// The product A Y of the state matrix A and the matrix Y whose columns are states.
     pub fn moved(&self, states: MatRef<'_, f64>) -> Mat<f64> {
         let count = self.modes.omegas.len();
         let damped = product(self.modes.damping.as_ref(), states.subrows(count, count));
@@ -135,7 +135,7 @@ impl<'a> State<'a> {
         })
     }
 
-    /// The sign of a value of the state in J.
+    /// The diagonal element (1 or -1) of J for the value `row` of the state.
     pub fn sign(&self, row: usize) -> f64 {
         let count = self.modes.omegas.len();
         if (count..2 * count).contains(&row) { 1.0 } else { -1.0 }

@@ -36,13 +36,13 @@ struct Reflecting {
     poisson: f64,
 }
 
-/// Number of modes below a frequency (Hz) that the law leads to expect, at least one.
+/// Number of modes below a frequency (Hz) that Weyl's law predicts, at least one.
 pub fn expected_modes(surface: &Surface, hz: f64) -> f64 {
     Weyl::of(surface).below(Medium::of(&surface.sheet).wavenumber(TAU * hz)).max(1.0)
 }
 
 impl Weyl {
-    /// The law for a surface, without the actuators and fingers on it.
+    /// Weyl's law for a surface, without the actuators and fingers on it.
     pub fn of(surface: &Surface) -> Self {
         let medium = Medium::of(&surface.sheet);
         let mut edges: Vec<(f64, Edge)> = Vec::new();

@@ -134,7 +134,8 @@ impl Modes {
         }
     }
 
-    /// Whether a [cache](unripple_core::Cached) holds what [`Modes::solve`] would solve for.
+    /// Whether a [cache](unripple_core::Cached) holds the modes that [`Modes::solve`] would compute for these
+    /// arguments.
     ///
     /// # Errors
     /// Those of [`Modes::solve`] for values out of range.

@@ -271,7 +271,7 @@ impl Held {
         Ok(Seen { done, draw: draw(made.clone(), columns, field::figures), made })
     }
 
-    /// Does a task on these responses that fills a folder. Its ask names a surface at `surface`.
+    /// Runs a task that writes a folder on these responses. Its ask names a surface at `surface`.
     pub fn fill<A: Request, R: Report>(
         &self,
         mut ask: A,

@@ -107,7 +107,7 @@ fn told(middles: &[f64]) -> String {
 }
 
 impl Library {
-    /// Middle frequencies of the bands for which this library stores quality, in Hz and ascending; `None` if it
+    /// Centre frequencies of the bands for which this library stores quality, in Hz and ascending; `None` if it
     /// stores none.
     pub fn bands(&self) -> Option<&[f64]> {
         self.arrays.bands.as_ref().map(|bands| bands.middles.as_slice())

@@ -108,8 +108,8 @@ impl Library {
         Ok(library)
     }
 
-    /// Checks whether [`Library::create`] can use a folder, which must not exist, be empty or hold a library: for
-    /// callers that have long work to do before.
+    /// Checks whether [`Library::create`] can use a folder, for callers that compute for long before they create
+    /// it: the folder must hold a library, be empty, or not exist.
     ///
     /// # Errors
     /// [`StoreError::Occupied`] if something else is there, [`StoreError::Write`] if the folder cannot be examined.

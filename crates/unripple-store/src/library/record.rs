@@ -45,7 +45,7 @@ impl Doubt {
         Self { check: check.into(), what: what.into(), points: Vec::new() }
     }
 
-    /// This doubt, about some points only, by index from 0.
+    /// This doubt restricted to some points, given by their indices from 0.
     #[must_use]
     pub fn at(self, points: Vec<usize>) -> Self {
         Self { points, ..self }
@@ -129,13 +129,14 @@ pub(crate) fn read_or_doubt(root: &Path) -> Record {
 }
 
 impl Library {
-    /// Reasons to doubt the library, sorted by check; empty if there are none. A record that cannot be read is such a
-    /// reason.
+    /// Reasons to doubt the library, sorted by the name of the check that found them; empty if there are none. A
+    /// record that cannot be read is such a reason.
     pub fn doubts(&self) -> &[Doubt] {
         &self.record.doubtful
     }
 
-    /// Stores the doubts that one check found, in place of those that it found before; an empty list removes them.
+    /// Stores the reasons for doubt that the check named `check` has found, in place of those that it found
+    /// before; an empty list removes them.
     ///
     /// # Errors
     /// [`StoreError::Write`], or [`StoreError::Occupied`] if another process writes.

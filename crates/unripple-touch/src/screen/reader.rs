@@ -56,7 +56,7 @@ impl Screen {
         Self::new(found.name, Box::new(found.kernel), found.axes, found.pressure, options)
     }
 
-    /// Refuses the device file: screens are read on Linux alone.
+    /// Returns an error: touch screens can be read on Linux only.
     #[cfg(not(target_os = "linux"))]
     pub fn open(path: &std::path::Path, _: Options) -> Result<Self, TouchError> {
         let what = "screens are read on Linux alone; send its touches over TUIO, OSC or WebSocket".to_owned();
@@ -69,7 +69,7 @@ impl Screen {
         super::linux::list()
     }
 
-    /// No screens: they are read on Linux alone.
+    /// An empty list: touch screens can be read on Linux only.
     #[cfg(not(target_os = "linux"))]
     pub fn list() -> Vec<(std::path::PathBuf, String)> {
         Vec::new()

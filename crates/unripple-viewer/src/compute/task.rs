@@ -44,7 +44,7 @@ pub enum Kind {
     Compare,
 }
 
-/// The request of a page that a task answers.
+/// A request of a page for a computation; the page gets the result of the task as its answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
     /// Number of the page that requests it.
@@ -56,8 +56,8 @@ pub struct Asked {
 }
 
 impl Task {
-    /// The request that the task answers; `None` for design figures, which are computed after every edit
-    /// without a request.
+    /// The request of a page for which the task is computed; `None` for design figures, which are computed
+    /// after every edit without a request.
     pub fn asked(&self) -> Option<Asked> {
         match self {
             Self::Design(_) => None,

@@ -110,10 +110,9 @@ pub struct Missed {
     pub error: ActError,
 }
 
-/// Calls `solve` with the highest frequency (Hz) of the modes to use: `asked`, or by default [`judged_hz`]
-/// with the first of `bands`, descending multiples of the top of the band. If these modes need too much
-/// memory, or cannot be computed accurately enough, `solve` is called again with the next multiple, and
-/// last with the top of the band.
+/// Calls `solve` with the highest frequency (Hz) of the modes to use: with `asked`, or by default with the
+/// multiples `bands` of the top of the band, in descending order ([`judged_hz`]), until the modes fit into
+/// memory and can be computed accurately enough; last with the top of the band itself.
 ///
 /// # Errors
 /// Those of `solve`.

@@ -118,7 +118,8 @@ impl Modal {
         })
     }
 
-    /// Window (s) from which on contrast stays the same: [`SILENT`] decay times of what rings longest. Infinite if anything rings for ever.
+    /// Window (s) beyond which contrast no longer changes: [`SILENT`] times the longest decay time of all modes. Infinite if a mode has no
+    /// damping.
     pub fn settled(&self) -> f64 {
         settled(&self.terms)
     }

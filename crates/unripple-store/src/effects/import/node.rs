@@ -86,8 +86,8 @@ impl<'v> Node<'v> {
         known.iter().copied().find(|name| *name == found).ok_or_else(|| self.refuse(expected()))
     }
 
-    /// Refuses points of a curve whose times (s) run back; each `[time, value]` was read from the item of the same
-    /// index.
+    /// Refuses points of a curve whose times (s) are not in ascending order; each `[time, value]` was read from
+    /// the item of the same index.
     pub fn ascending(items: &[Self], time: &str, points: &[(f64, f64)]) -> Result<(), StoreError> {
         match points.windows(2).position(|pair| pair[1].0 < pair[0].0) {
             None => Ok(()),
