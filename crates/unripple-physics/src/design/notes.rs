@@ -18,19 +18,18 @@ pub(super) fn notes(ground: &Ground<'_>, design: &Design) -> Vec<Note> {
 /// The note on which of the predicted contrasts to trust, and why they differ.
 fn which(ground: &Ground<'_>, design: &Design) -> Note {
     let (refined, plain) = (design.contrast_predicted, design.contrast_plain);
-    let statistics =
-        "the modal density and the decay time of each frequency, the rim and the first reflections";
+    let statistics = "modal density and decay time against frequency, the rim and the first reflections";
     let text = match ground.loaded_contrast {
         Some(_) => format!(
-            "trust the {refined:.1}: the mean over many targets, computed from this surface's own modes with its actuators where they are; \
-             other windows and numbers of actuators follow from the statistics of these modes, other bands, noise and rates from those of \
-             the band, all scaled to agree with it; the {plain:.1} by the plain form, with one density of modes and one decay time for the \
-             whole band, is there for comparison"
+            "{refined:.1} is the more reliable: the mean over many targets, computed from this surface's own modes with its actuators \
+             at their places. Contrasts for other windows and numbers of actuators follow from the statistics of these modes, those for \
+             other bands, noise and rates from the statistics of the band, all scaled to agree with it. For comparison, {plain:.1} is \
+             the result of the plain form, with one modal density and one decay time for the whole band"
         ),
         None => format!(
-            "trust the {refined:.1} by statistics of the band more than the {plain:.1} by the plain form, since it knows {statistics}, for which the \
-             plain form has one density and one decay time; both are statistics of any sheet like this one, as its own modes were not \
-             computed, and `focus` gives the contrast of a target"
+            "{refined:.1}, by statistics of the band, is more reliable than {plain:.1}, the result of the plain form: the statistics \
+             include {statistics}, while the plain form has one modal density and one decay time for the whole band. Since this \
+             surface's own modes were not computed, both are means over all sheets like it; `focus` gives the contrast at a target"
         ),
     };
     Note { topic: "which contrast".into(), text }
@@ -47,7 +46,8 @@ fn rigid(ground: &Ground<'_>) -> Option<Note> {
     Some(Note {
         topic: "rigid motions".into(),
         text: format!(
-            "nothing holds the sheet and the band begins at 0 Hz: {count}{all} {} at 0 Hz; a band that begins above leaves that out",
+            "nothing holds the sheet and the band begins at 0 Hz: {count}{all} {} at 0 Hz; a band that begins above 0 Hz excludes rigid \
+             motions",
             if count == 1 { "is its motion as a rigid body," } else { "are its motions as a rigid body," }
         ),
     })

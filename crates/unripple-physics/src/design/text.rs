@@ -35,7 +35,7 @@ fn line(f: &mut Formatter<'_>, name: &str, value: &str) -> Result {
 fn waves(d: &Design, f: &mut Formatter<'_>) -> Result {
     section(f, "Waves")?;
     let (low, top) = (d.celerity_min_m_s, d.celerity_max_m_s);
-    line(f, "phase velocity, bottom to top", &format!("{low:.2} to {top:.2} m/s"))?;
+    line(f, "phase velocity over the band", &format!("{low:.2} to {top:.2} m/s"))?;
     if let Some(paper) = &d.paper {
         line(f, "at a wavelength of 15 mm", &format!("{:.2} m/s", paper.celerity_at_15mm_m_s))?;
     }
@@ -107,7 +107,7 @@ fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
     line(
         f,
         "at the best window",
-        &format!("{endless:.1}; with the recommended one by the plain form {plain:.1}"),
+        &format!("{endless:.1}; by the plain form with the recommended one {plain:.1}"),
     )?;
     write!(f, "  {:>8}", "T ms \\ N")?;
     d.actuator_counts.iter().try_for_each(|n| write!(f, " {n:>7}"))?;
@@ -136,7 +136,7 @@ fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
     }
     let noisy = |r: &super::ByNoise| format!("{:.1} at {}", r.contrast, r.noise_ratio);
     let noise: Vec<_> = d.contrast_by_noise.iter().map(noisy).collect();
-    line(f, "with noise, as a share of rms", &noise.join(", "))
+    line(f, "with noise, relative to the signal", &noise.join(", "))
 }
 
 fn repetition(d: &Design, f: &mut Formatter<'_>) -> Result {

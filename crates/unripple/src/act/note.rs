@@ -58,8 +58,8 @@ pub(super) fn all(surface: &Surface, measured: &Measured, largest: f64, found: &
     if measured.taken_on == TakenOn::Library {
         notes.push(Note {
             topic: "linear theory",
-            text: "slopes, added tension and strain are not known between the points of a library: displacement at its points is all \
-                that linear theory is checked by".into(),
+            text: "slopes, added tension and strain are not known between the points of a library: only the displacement at its points \
+                   is compared with the limits of linear theory".into(),
         });
     }
     if measured.targets.iter().any(|target| !target.span_complete) {
@@ -83,9 +83,9 @@ fn rigid(surface: &Surface) -> Option<Note> {
     Some(Note {
         topic: "rigid motions",
         text: format!(
-            "nothing holds the sheet and the band begins at 0 Hz, so that {motions} among the modes: a drive pushes it away as a whole, by \
-             as much as its sum and the decay time say, and displacements and levels as felt contain that; a band that begins above 0 Hz \
-             leaves it out"
+            "nothing holds the sheet and the band begins at 0 Hz, so that {motions} among the modes: a drive moves the sheet as a \
+             whole, in proportion to the sum of its samples and to the decay time, and displacements and felt levels include this \
+             motion; a band that begins above 0 Hz excludes it"
         ),
     })
 }
@@ -102,7 +102,7 @@ fn outside(measured: &Measured) -> Option<Note> {
         }
         TakenOn::Library if outside_points == 0 => {
             format!(
-                "no point of the library lies outside {discs}, so that there is no contrast: it would take points farther away"
+                "no point of the library lies outside {discs}, so that there is no contrast: it needs points farther away"
             )
         }
         TakenOn::Grid if outside_share < LITTLE => format!(
@@ -133,22 +133,22 @@ fn felt(measured: &Measured) -> Option<Note> {
             format!(" and {:.0} % of that at the strongest place elsewhere", 100.0 * share)
         });
         why.push(format!(
-            "above {:.0} Hz lie {:.0} % of the energy of the velocity at {at}{there}; so fast a surface loses contact with the skin, \
-             and transients are felt in other ways (of waves above 20 kHz, pulses of 7 µm were felt that this threshold calls \
-             unfelt: Hudin, Lozada and Hayward 2015)",
+            "above {:.0} Hz lie {:.0} % of the energy of the velocity at {at}{there}; at such frequencies the surface loses contact \
+             with the skin, and transients are felt by other mechanisms (pulses of 7 µm, of waves above 20 kHz, were felt although they \
+             are below this threshold: Hudin, Lozada and Hayward 2015)",
             Threshold::MEASURED_TO_HZ,
             100.0 * here
         ));
     }
     if lasts < SHORT * Threshold::INTEGRATION_S {
         why.push(format!(
-            "what is felt at {at} lasts {:.0} ms: touch adds up vibration over some {:.0} ms, and so short a motion must be larger \
-             to be felt",
+            "what is felt at {at} lasts {:.0} ms: the sense of touch integrates vibration over some {:.0} ms, and so short a motion \
+             must be larger to be felt",
             1e3 * lasts,
             1e3 * Threshold::INTEGRATION_S
         ));
     }
-    let holds = "the threshold of touch is that of vibration that lasts, and levels as felt do not hold here";
+    let holds = "the threshold of touch is that of sustained vibration, and felt levels are not valid here";
     (!why.is_empty()).then(|| Note { topic: FELT, text: format!("{holds}: {}", why.join("; ")) })
 }
 

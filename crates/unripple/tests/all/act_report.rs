@@ -74,7 +74,7 @@ fn felt_levels_have_a_caveat_where_motion_is_fast_or_short_and_none_elsewhere() 
     let notes = said(&short, "felt");
     assert!(notes.len() == 1 && notes[0].contains("lasts") && !notes[0].contains("1000 Hz"), "{notes:?}");
     for text in [report.text(), report.markdown()] {
-        assert!(text.contains("which does not hold here") && !text.contains("nothing is felt"), "{text}");
+        assert!(text.contains("which does not apply here") && !text.contains("nothing is felt"), "{text}");
     }
 
     let (fast, _) = run(&film(3000.0), Target::at(place()));

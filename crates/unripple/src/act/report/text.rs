@@ -141,7 +141,7 @@ impl Report {
             TakenOn::Library => "of the library's points",
         };
         Some(format!(
-            "strongest elsewhere: {:.0} % of the peak velocity, at ({:.1}, {:.1}) mm and {:.3} ms; elsewhere is {:.0} % {of}",
+            "strongest elsewhere: {:.0} % of the peak velocity, at ({:.1}, {:.1}) mm and {:.3} ms; the focal discs leave {:.0} % {of}",
             100.0 / ratio,
             x * 1e3,
             y * 1e3,
@@ -161,7 +161,7 @@ impl Report {
         let of = "felt outside the focal discs";
         if self.notes.iter().any(|told| told.topic == note::FELT) {
             return Some(format!(
-                "{of}: {level} the threshold of vibration that lasts, which does not hold here (see the note)"
+                "{of}: {level} the threshold of sustained vibration, which does not apply here (see the note)"
             ));
         }
         let reached = self.targets.iter().any(|target| target.felt_level_db.is_some_and(|level| level > 0.0));
