@@ -241,7 +241,7 @@ class Reporting:
         return self._report("calibrate", {"output": folder, **options})
 
     def doctor(self, **options: Unpack[_types.DoctorOptions]) -> Report:
-        """Check each stage from a touch to the fingertip, and say why nothing may be felt.
+        """Check each stage from a touch to the fingertip, and give likely reasons if nothing is felt.
 
         Parameters
         ----------

@@ -232,7 +232,7 @@ def play(surface: _types.SurfaceLike, **options: Unpack[_types.PlayOptions]) -> 
 
 
 def doctor(surface: _types.SurfaceLike = "hudin-2012", **options: Unpack[_types.DoctorOptions]) -> Report:
-    """Check each stage from a touch to the fingertip, and say why nothing may be felt; see :meth:`Surface.doctor`.
+    """Check each stage from a touch to the fingertip, and give likely reasons if nothing is felt; see :meth:`Surface.doctor`.
 
     Parameters
     ----------

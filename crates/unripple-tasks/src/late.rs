@@ -3,7 +3,7 @@
 /// Sentence that says that the probe's delay (s) relative to the sensors was found and corrected.
 pub fn comes(delay: f64) -> String {
     let (ms, side) = (1e3 * delay.abs(), if delay < 0.0 { "earlier" } else { "later" });
-    format!("the probe comes {ms:.3} ms {side} than the sensors: corrected")
+    format!("the probe's signals arrive {ms:.3} ms {side} than those of the sensors: corrected")
 }
 
 #[cfg(test)]
@@ -12,7 +12,13 @@ mod tests {
 
     #[test]
     fn a_probe_that_comes_first_is_said_to() {
-        assert_eq!(comes(-0.5e-3), "the probe comes 0.500 ms earlier than the sensors: corrected");
-        assert_eq!(comes(1e-3), "the probe comes 1.000 ms later than the sensors: corrected");
+        assert_eq!(
+            comes(-0.5e-3),
+            "the probe's signals arrive 0.500 ms earlier than those of the sensors: corrected"
+        );
+        assert_eq!(
+            comes(1e-3),
+            "the probe's signals arrive 1.000 ms later than those of the sensors: corrected"
+        );
     }
 }

@@ -89,7 +89,8 @@ pub enum Command {
     Compare(CompareOptions),
     /// Simulate what a given drive does to a surface.
     Field(FieldOptions),
-    /// Give many designs to a command: a grid, Sobol points or a list over keys and options, in one table, by processes that may be killed.
+    /// Run a command for many designs (a grid, Sobol points or a list of values of keys and options), by several processes, with the
+    /// results in one table; continues after any interruption.
     Sweep(SweepOptions),
     /// Measure impulse responses through a device, as a library that `focus` and `field` accept in place of a surface.
     Calibrate(CalibrateOptions),
@@ -111,7 +112,7 @@ pub enum Command {
     Materials(MaterialsOptions),
     /// List devices that can play a drive: virtual surface, files, sound server, cards.
     Devices(DevicesOptions),
-    /// Check each stage from touch to fingertip, and list reasons why nothing may be felt.
+    /// Check each stage from touch to fingertip, and list likely reasons if nothing is felt.
     Doctor(DoctorOptions),
     /// Reproduce the table and figures of Hudin et al. (2012), with our results beside the paper's, as one page.
     Reproduce(ReproduceOptions),

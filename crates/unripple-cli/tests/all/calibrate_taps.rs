@@ -22,7 +22,7 @@ fn taps_are_measured_by_a_fitted_model_if_there_is_one() {
     let (fitted, said) = tapped("fitted", &[]);
     assert!(fitted == true && !said.contains("forces of taps"), "{said}");
     let (fitted, said) = tapped("unfitted", &["--no-model"]);
-    let expected = "at 1 point the forces of taps are found by the model of the surface file";
+    let expected = "at 1 point the forces of taps are computed with the model of the surface file";
     assert!(fitted == false && said.contains(expected) && said.contains("(--no-model)"), "{said}");
     // The point stays as it was measured, whatever a later run knows, and whoever uses it is told.
     let (fitted, said) = tapped("unfitted", &[]);

@@ -144,9 +144,9 @@ fn a_library_without_what_actuators_hear_is_doubtful() {
     let (output, told, said) = bench.calibrate(1, &[]);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("sensor of `a2`") && number(&told, "/measured") == 1.0, "{said}");
-    assert!(doubts(&told).iter().any(|doubt| doubt.contains("own points of a1, a2, a3, a4, a5")), "{told}");
+    assert!(doubts(&told).iter().any(|doubt| doubt.contains("points at a1, a2, a3, a4, a5")), "{told}");
     let output = bench.focus(&[]);
-    assert!(String::from_utf8_lossy(&output.stderr).contains("doubtful: the own points"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("doubtful: the points at a1"));
 
     // Recorded again it is good.
     bench.bring_all(1);

@@ -107,9 +107,9 @@ fn a_level_as_felt_is_met_and_what_is_felt_elsewhere_is_said() {
     let scratch = Scratch::new("felt");
     let out = scratch.join("out");
     for (level, at, said) in [
-        ("2", "62,90", "dB below the threshold of vibration that lasts, which does not hold here"),
-        ("-6", "62,90", "dB below the threshold of vibration that lasts, which does not hold here"),
-        ("20", "40,50", "dB above the threshold of vibration that lasts, which does not hold here"),
+        ("2", "62,90", "dB below the threshold of sustained vibration, which does not apply here"),
+        ("-6", "62,90", "dB below the threshold of sustained vibration, which does not apply here"),
+        ("20", "40,50", "dB above the threshold of sustained vibration, which does not apply here"),
     ] {
         let report =
             json(&["focus", "hudin-2012", "--at", at, "--felt-db", level, "--window-ms", "30", "-o", &out]);

@@ -223,10 +223,10 @@ fn what_was_read_and_has_changed_is_refused() {
     *drive.last_mut().unwrap() ^= 1;
     scratch.file("drive.wav", &drive);
     let why = refused(&["rerun", &field], 2);
-    assert!(why.contains("drive.wav: expected what the run read (SHA-256 "), "{why}");
+    assert!(why.contains("drive.wav: expected the file as the run read it (SHA-256 "), "{why}");
     std::fs::remove_dir_all(scratch.path().join("lib")).unwrap();
     let why = refused(&["rerun", &focus], 2);
-    assert!(why.contains("lib: expected what the run read") && why.contains("found none"), "{why}");
+    assert!(why.contains("lib: expected the file as the run read it") && why.contains("found none"), "{why}");
     let (none, other) = (scratch.file("none.json", "{}"), scratch.file("text.json", "text"));
     for file in [none, other, scratch.join("nowhere.json")] {
         let why = refused(&["rerun", &file], 2);

@@ -117,7 +117,7 @@ fn wrong(scratch: &Scratch, before: &str, good: &[Vec<f64>]) {
         let line = errors.lines().find(|line| line.contains(&format!("point-{:03}.wav", i + 1)));
         assert!(line.is_some_and(|line| line.contains(said)), "{said}: {errors}");
     }
-    // Nothing is made of them: only the actuators' own points are there.
+    // Nothing is made of them: only the points at the actuators are there.
     let told: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((number(&told, "/measured"), missing(&told)), (8.0, vec!["point-009.wav"]));
     assert_eq!(told["tape"]["wrong"].as_array().unwrap().len(), 8);

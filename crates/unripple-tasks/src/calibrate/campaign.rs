@@ -95,7 +95,7 @@ impl Campaign<'_> {
     pub(super) fn scale_told(&self) -> Value {
         match self.ask.by {
             By::Probe => self.scales.told(),
-            By::Tap => json!({ "by": "the model, tap by tap" }),
+            By::Tap => json!({ "by": "the model, for each tap" }),
         }
     }
 }

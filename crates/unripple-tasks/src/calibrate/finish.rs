@@ -224,8 +224,8 @@ fn lacking(campaign: &Campaign<'_>, filler: &mut LibraryFiller) -> Result<(), Ta
         Doubt::of(
             OWN,
             format!(
-                "the own points of {} are missing or bad, expected those of all actuators with sensors: the responses between \
-                 them are the basis of all other checks; measure them again",
+                "the points at {} are missing or bad, expected those at all actuators with sensors: the responses between actuators are \
+                 the basis of all other checks; measure them again",
                 names.join(", ")
             ),
         )
@@ -241,13 +241,13 @@ fn useless(filler: &mut LibraryFiller) -> Result<(), TaskError> {
     };
     let (bad, good) = (count(PointState::Bad), count(PointState::Measured));
     let found = (bad > 0 && good == 0).then(|| {
-        let (by, look) = if by_taps(&filler.library) { ("taps", "the sensors") } else { ("the probe", "the probe and at the levels") };
+        let (by, look) = if by_taps(&filler.library) { ("taps", "the sensors") } else { ("the probe", "the probe and the levels") };
         let all = if bad == 1 { "is" } else { "are all" };
         Doubt::of(
             CHECK,
             format!(
-                "{} measured by {by} {all} bad, expected some that are good: look at what is said of each, at {look}, and measure \
-                 them again",
+                "{} measured by {by} {all} bad, expected some that are good: read the remark on each, check {look}, and measure them \
+                 again",
                 points(bad)
             ),
         )
@@ -297,8 +297,8 @@ fn sensors(campaign: &Campaign<'_>, filler: &mut LibraryFiller) -> Result<(), Ta
             "over_probe": apart,
             "left_out": true,
             "said": format!(
-                "sensors are {apart:.3} times as loud as the {}, so they must be in another unit: the actuators' own points \
-                 are used in no metric (`input_scales` gives their scale)",
+                "sensors are {apart:.3} times as loud as the {}, so they must be in another unit: the points at the actuators are not \
+                 used in any metric (`input_scales` gives their scale)",
                 if by_taps(&filler.library) { "responses to taps" } else { "probe" }
             ),
         }),

@@ -55,8 +55,8 @@ fn said(library: &Library) -> Option<String> {
     let (last, count) = (points.last()?, counted(points.len()));
     let why = log(*last).and_then(|log| log["why"].as_str()).unwrap_or("not said");
     Some(format!(
-        "at {count} the forces of taps are found by the model of the surface file, since none was fitted to the responses between \
-         actuators ({why}): beside masses that the file does not know, and where taps bounce, responses may be wrong"
+        "at {count} the forces of taps are computed with the model of the surface file, since no model was fitted to the responses \
+         between actuators ({why}): near masses that the file does not contain, and where taps bounce, responses may be wrong"
     ))
 }
 

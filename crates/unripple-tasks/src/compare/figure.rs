@@ -40,9 +40,8 @@ pub fn draw(rows: &[Row], fronts: &[Front], felt: &[Row]) -> Figure {
         columns: 2,
         panels,
         letters: true,
-        description: "Contrast of every method against the energy that the same peak takes and against the peak that the drive \
-            limit allows, with the parameter of each method varied from end to end; what is felt elsewhere against the drive \
-            that a felt level takes"
+        description: "Contrast of every method against the energy for the same peak and against the peak at the drive limit, over the \
+                      whole range of each method's parameter; felt contrast against the drive needed for the same felt level"
             .into(),
         ..Figure::default()
     }

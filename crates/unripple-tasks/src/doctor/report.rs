@@ -11,7 +11,7 @@ pub struct Report {
     pub surface: String,
     /// Results of all stages, in the order in which a touch passes them.
     pub checks: Vec<Check>,
-    /// Reasons why nothing may be felt: failed checks first, then doubtful ones; empty if there are none.
+    /// Likely reasons if nothing is felt: failed checks first, then doubtful ones; empty if there are none.
     pub why_you_may_feel_nothing: Vec<String>,
 }
 

@@ -83,7 +83,8 @@ impl Known {
         if let Some(measured) = provenance.get(FITTED_TO) {
             if !Library::is_at(measured) {
                 return Err(TaskError::Input(format!(
-                    "{name}: expected the library that it was fitted to, `{measured}`, whose responses show the tension, found none there"
+                    "{name}: expected the measured library that this model was fitted to at `{measured}`, since its responses give the \
+                     tension, found none there"
                 )));
             }
             return Self::of_library(Library::open(measured)?, progress);

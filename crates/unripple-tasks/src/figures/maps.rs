@@ -157,7 +157,7 @@ pub fn peaks(scene: &Scene, measured: &Measured) -> Figure {
     let left = marked.panel(maps, &maps.peak_velocity, title, colours);
     let colours = displacement(ColourMap::Sequential, &maps.peak_displacement);
     let right = scene.panel(maps, &maps.peak_displacement, title, colours);
-    let described = "Largest velocity and displacement of the surface over the time measured; small circles mark the largest velocity \
+    let described = "Largest velocity and displacement of the surface over the time evaluated; small circles mark the largest velocity \
         elsewhere, as a share of the peak";
     side_by_side(left, right, described)
 }
@@ -189,7 +189,7 @@ pub fn felt(scene: &Scene, measured: &Measured) -> Option<Figure> {
         width_mm: 89.0,
         panels: vec![panel],
         description:
-            "Largest vibration of the surface over the time measured, in dB above the threshold of touch"
+            "Largest vibration of the surface over the time evaluated, in dB above the threshold of touch"
                 .into(),
         ..Figure::default()
     })

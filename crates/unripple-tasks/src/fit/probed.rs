@@ -105,6 +105,9 @@ mod tests {
             copies: Vec::new(),
             doubts: Vec::new(),
         };
-        assert_eq!(notes(&found), ["the probe comes 0.500 ms earlier than the sensors: corrected"]);
+        assert_eq!(
+            notes(&found),
+            ["the probe's signals arrive 0.500 ms earlier than those of the sensors: corrected"]
+        );
     }
 }

@@ -154,13 +154,13 @@ fn polish<'a>(ask: &Ask, setting: &'a Setting) -> Polish<'a> {
     }
 }
 
-/// What was made large, in words.
+/// The objective that is maximised, in words.
 fn objective_name(ask: &Ask) -> String {
     match ask.objective() {
         Objective::Mean => "mean contrast".into(),
         Objective::Worst => "least contrast".into(),
         Objective::Quantile(share) => {
-            format!("contrast that {:.0} % of the targets stay below", 100.0 * share)
+            format!("contrast that is lower at {:.0} % of the targets", 100.0 * share)
         }
     }
 }
@@ -171,10 +171,10 @@ fn certificate(search: &Search<'_>, count: usize, starts: &[Found], best: Option
     let reached = starts.iter().map(|found| found.score).fold(0.0, f64::max);
     let certificate = match &best {
         Some(best) if reached >= best.score * (1.0 - 1e-4) => {
-            "the best of all layouts of the places chosen from: every one was compared".to_owned()
+            "the best of all layouts on these places: every one was compared".to_owned()
         }
         Some(best) => format!(
-            "the best of all layouts of the places chosen from: every one was compared (the search alone reached {:.1} % of it)",
+            "the best of all layouts on these places: every one was compared (the search alone reached {:.1} % of it)",
             100.0 * reached / best.score
         ),
         None => format!("none: {layouts:.1e} layouts are too many to compare, and no useful bound is known"),
@@ -189,7 +189,7 @@ fn more(search: &Search<'_>, scores: &[f64], found: &Found) -> Option<More> {
     Some(More { at_m: [search.at[best].x, search.at[best].y], objective: scores[best] })
 }
 
-/// Layouts evaluated on targets that they were not placed for.
+/// Layouts evaluated on targets that they were not optimised for.
 struct Evaluated {
     before: Option<Vec<Reached>>,
     after: Vec<Reached>,

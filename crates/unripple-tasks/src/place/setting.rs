@@ -127,7 +127,7 @@ impl Setting {
         notes.extend(self.large_discs());
         if !self.held_out {
             let text =
-                "layouts are evaluated on the targets that they were placed for, since these were given";
+                "layouts are evaluated on the targets that they were optimised for, since these were given";
             notes.push(Note { topic: "targets", text: text.into() });
         }
         notes
@@ -331,8 +331,7 @@ fn targets(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(Vec<Aim>, V
     let rules = Rules { from_rim: [from_rim, f64::INFINITY], within, keep_out: Vec::new() };
     let all = spread(outline, &rules, 0, (1 + TESTED) * ask.targets);
     if all.len() < (1 + TESTED) * ask.targets {
-        let found =
-            "hardly any: the surface is small beside its shortest wavelength, or the areas lie beyond it";
+        let found = "hardly any: the surface is small compared with its shortest wavelength, or the areas lie beyond it";
         return Err(TaskError::ask("points_m, targets_within_m", "room for targets on the surface", found));
     }
     let mut aims = all.into_iter().map(|at| Aim { at, weight: 1.0 });

@@ -229,7 +229,7 @@ impl Record {
             };
             if found != file.sha256 {
                 return Err(TaskError::Input(format!(
-                    "{}: expected what the run read (SHA-256 {}), found {found}",
+                    "{}: expected the file as the run read it (SHA-256 {}), found {found}",
                     file.path.display(),
                     file.sha256
                 )));

@@ -79,7 +79,7 @@ impl Plan {
         let shown = path.display();
         let varies = |pointer: &&String| is_of_the_clock(pointer) || pointer.split('/').nth(1) == Some("run");
         if let Some(pointer) = file.figures.iter().find(varies) {
-            let expected = "expected figures that are the same in every run";
+            let expected = "expected values that are the same in every run";
             return Err(TaskError::Input(format!(
                 "{shown}: figures: {expected}, found `{pointer}`, a time by the clock or a record of the run"
             )));

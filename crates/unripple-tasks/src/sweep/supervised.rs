@@ -22,8 +22,7 @@ pub(super) fn run(workers: &Workers, folder: &Folder, progress: &mut dyn Progres
             // A process takes its shards in order: it died of the first that is missing.
             let shard = folder.missing()?.into_iter().find(|shard| shard % jobs == *first);
             if let Some(shard) = shard {
-                let told =
-                    format!("shard {shard}: its process was ended by {how}; it is tried again by itself");
+                let told = format!("shard {shard}: its process was ended by {how}; it is tried again alone");
                 progress.tell(&told);
                 settle(workers, folder, shard, progress)?;
             }

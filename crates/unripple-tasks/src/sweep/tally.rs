@@ -104,7 +104,10 @@ impl Tally {
             notes.push(Note { topic: "version", text });
         }
         if self.left_out > 0 {
-            let text = format!("up to {} long lists and texts of each report are no figures", self.left_out);
+            let text = format!(
+                "up to {} long lists and texts of each report are left out of the table",
+                self.left_out
+            );
             notes.push(Note { topic: "left out", text });
         }
         notes

@@ -105,17 +105,17 @@ impl Workers<'_> {
 fn death(status: ExitStatus) -> Result<Option<String>, TaskError> {
     match (status.code(), signal(status)) {
         (Some(0), _) => Ok(None),
-        (Some(code @ (1 | 2)), _) => {
-            Err(TaskError::Work(format!("a process of the sweep ended with exit status {code}; it said why")))
-        }
+        (Some(code @ (1 | 2)), _) => Err(TaskError::Work(format!(
+            "a process of the sweep ended with exit status {code}, for the reason that it printed"
+        ))),
         // Hang-up, interrupt and termination.
         (_, Some(signal @ (1 | 2 | 15))) => {
             let told = format!("a process of the sweep was ended by signal {signal}");
-            Err(TaskError::Work(format!("{told}; the same command goes on where it was")))
+            Err(TaskError::Work(format!("{told}; the same command continues from there")))
         }
-        (_, Some(6)) => Ok(Some("signal 6, by which a program ends that gets no more memory".into())),
+        (_, Some(6)) => Ok(Some("signal 6, with which a program ends that runs out of memory".into())),
         (_, Some(9)) => {
-            Ok(Some("signal 9, by which a system ends a program that takes too much memory".into()))
+            Ok(Some("signal 9, with which the system ends a program that takes too much memory".into()))
         }
         (_, Some(signal)) => Ok(Some(format!("signal {signal}"))),
         (code, None) => Ok(Some(format!("exit status {}", code.unwrap_or_default()))),

@@ -72,7 +72,7 @@ impl Reader {
             let found = wav.channels.len();
             let why = format!("expected {} channels ({}), found {found}", inputs.len(), inputs.join(", "));
             let mend =
-                "record all of them into one file, in that order, or name those there are with `tape_inputs`";
+                "record all of them into one file, in that order, or list those recorded with `tape_inputs`";
             return Err(Fault::new(file, why, mend));
         }
         Ok(wav)

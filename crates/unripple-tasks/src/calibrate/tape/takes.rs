@@ -231,7 +231,7 @@ impl Takes {
             let Some(best) = (0..all.len()).max_by(|a, b| all[*a].total_cmp(&all[*b])) else { continue };
             if best != *input && all[best] >= LIKE {
                 let why = format!(
-                    "expected {} to receive the sweeps as before, found what it received before in {}",
+                    "expected {} to receive the sweeps as in earlier recordings, found its signal in {}",
                     self.reader.named(*input),
                     self.reader.named(best)
                 );

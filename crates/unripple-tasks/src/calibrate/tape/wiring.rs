@@ -161,7 +161,7 @@ impl WiringResult {
         for actuator in alone {
             let input = calibration.takes.reader.named(calibration.takes.wires.sensors[actuator]);
             self.notes.push(format!(
-                "the sensor of `{}` receives nothing, {input}: check its cable and gain. Its own point is left out",
+                "the sensor of `{}` receives nothing, {input}: check its cable and gain. The point at this actuator is left out",
                 actuators[actuator].name
             ));
         }
