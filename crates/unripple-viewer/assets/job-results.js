@@ -33,7 +33,7 @@ export function devices(result) {
   }));
 }
 
-/** The stages of the doctor, with what each found, and why nothing may be felt. */
+/** The stages that the doctor checks, with the result of each, and likely reasons if nothing is felt. */
 export function doctor(result) {
   const checks = result.checks ?? result.stages ?? (Array.isArray(result) ? result : []);
   if (!checks.length) return rest(result);
