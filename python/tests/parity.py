@@ -38,7 +38,7 @@ What each command of `unripple`, each of its options and each key of its reports
 this page, and a test fails where something has no name. What they mean: `unripple COMMAND --help`, [JSON output](json.md), and
 `help(unripple)`.
 
-Options have the names of the command line, with underscores, or those of the fields of the ask, which are in SI units. Every command is
+Options have the names of the command line, with underscores, or those of the fields of the request, which are in SI units. Every command is
 there by its name: `unripple.run("focus", surface="hudin-2012", at=[(62, 90)], window_ms=30)`.
 """
 
@@ -107,7 +107,7 @@ def page() -> str:
         lines += [f"## {command}", "", f"{named}.", ""]
         rows = [f"| `{path}` | {', '.join(names)} |" for path, names in options(command).items()]
         if rows:
-            lines += ["| field of the ask | options |", "|---|---|", *rows, ""]
+            lines += ["| field of the request | options |", "|---|---|", *rows, ""]
     rows = [f"| {name} | {', '.join(f'`{key}`' for key in of_part)} |" for name, of_part in parts().items()]
     return "\n".join([*lines, ON_REPORTS + "\n".join(rows)]) + "\n"
 

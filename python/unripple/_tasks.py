@@ -22,7 +22,7 @@ def run(command: str, **options: Any) -> Report:
     command
         Name of the command, such as ``"modes"``.
     **options
-        Options by their names on the command line with underscores, or by the fields of the ask in SI units; ``surface=`` and ``set=`` where
+        Options by their names on the command line with underscores, or by the fields of the request in SI units; ``surface=`` and ``set=`` where
         it reads a surface file; ``progress=`` and ``threads=``.
 
     Returns
