@@ -195,8 +195,8 @@ impl Tracker {
         self
     }
 
-    /// This tracker with `ratio` as the tension of the calibrated surface: from now on tension is reported relative to it. `ratio` is
-    /// what [`Tracker::tension`] reports for a surface that has just been calibrated.
+    /// This tracker with another reference: from now on tension is reported relative to `ratio` times the present reference tension.
+    /// `ratio` is what [`Tracker::tension`] reports for a surface that has just been calibrated.
     ///
     /// A fitted model has small errors in the frequencies of the modes that a focus excites. They look like a change of tension of about
     /// 1e-4, which is the same under any tension. A few foci observed right after calibration show how large it is.

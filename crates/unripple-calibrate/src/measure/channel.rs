@@ -19,7 +19,8 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// A channel of stored responses `[actuator][sample]`, without quality and account.
+    /// A channel of stored responses `[actuator][sample]`, of unknown quality and without findings about the
+    /// recording ([`Account`]).
     pub fn of_responses(responses: Vec<Vec<f64>>) -> Self {
         Self { responses, ..Self::default() }
     }

@@ -118,7 +118,7 @@ pub const DOCTOR: &str = "Examples:
   unripple doctor
   unripple doctor my-surface.toml --device jack";
 
-/// For `reproduce`: it has no other options that most people need.
+/// For `reproduce`: only its required option, since the others are seldom needed.
 pub const REPRODUCE: &str = "Examples:
   unripple reproduce -o paper";
 

@@ -26,10 +26,12 @@ pub struct SweepOptions {
     /// Width of the picture, in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default it depends on the plan.
     #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
     pub columns: Option<usize>,
-    /// Folder for rows, table, report and picture. What is there of the same plan is not computed again.
+    /// Folder for rows, table, report and picture. Designs of the same plan that are already in it are not
+    /// computed again.
     #[arg(short, long, value_name = "DIR", required_unless_present = "count", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
-    /// Compute a piece, for the process that started this one, and end when standard input does.
+    /// Compute the part of a sweep assigned by the process that started this one, and end when standard input
+    /// ends.
     #[arg(long, hide = true, conflicts_with_all = ["count", "shard"])]
     pub piece: Option<String>,
 }

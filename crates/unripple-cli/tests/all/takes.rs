@@ -175,7 +175,7 @@ fn missing_surplus_and_added_takes() {
     // A plan that differs is told by what differs, whole.
     let (output, _, said) = bench.calibrate(2, &twice);
     assert_eq!(output.status.code(), Some(1));
-    assert!(said.contains("point-003.wav at (35.0000, 55.0000) mm there, not asked for"), "{said}");
+    assert!(said.contains("point-003.wav at (35.0000, 55.0000) mm in the folder, not requested"), "{said}");
     let (output, _, said) = bench.calibrate(3, &["--repeats", "2", "--sweep-ms", "400"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(

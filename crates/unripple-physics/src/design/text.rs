@@ -107,7 +107,7 @@ fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
     line(
         f,
         "at the best window",
-        &format!("{endless:.1}; by the plain form with the recommended one {plain:.1}"),
+        &format!("{endless:.1}; {plain:.1} by the plain form, at the recommended window"),
     )?;
     write!(f, "  {:>8}", "T ms \\ N")?;
     d.actuator_counts.iter().try_for_each(|n| write!(f, " {n:>7}"))?;

@@ -42,7 +42,7 @@ impl LevelAsk {
     /// [`TaskError::Ask`] of an absolute level on responses of unknown scale.
     pub fn level_on(self, why: Option<&str>) -> Result<Level, TaskError> {
         let without = |field: &'static str, why: &str| {
-            Err(TaskError::ask(field, "a library whose level is known", format!("one without: {why}")))
+            Err(TaskError::ask(field, "a library whose scale is known", format!("one without: {why}")))
         };
         match (self, why) {
             (Self::PeakM(_), Some(why)) => without("peak_m", why),

@@ -81,7 +81,7 @@ impl ComputeWorker {
 fn level(peak: Option<f64>, unscaled: Option<&str>) -> Result<Level, String> {
     match (peak, unscaled) {
         (Some(_), Some(why)) => {
-            Err(format!("peak in µm: expected a library whose level is known, found one without: {why}"))
+            Err(format!("peak in µm: expected a library whose scale is known, found one without: {why}"))
         }
         (Some(um), None) => Ok(Level::Peak(um * 1e-6)),
         (None, Some(_)) => Ok(Level::Limit),

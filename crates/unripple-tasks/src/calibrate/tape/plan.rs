@@ -177,7 +177,7 @@ fn differences(plan: &Value, before: &Value) -> Vec<String> {
         })
         .map(|(key, here)| {
             let there = before.get(key).map_or("nothing".to_owned(), Value::to_string);
-            format!("  \"{key}\": {there} there, {here} asked for")
+            format!("  \"{key}\": {there} in the folder, {here} requested")
         })
         .collect();
     if other.is_empty() {

@@ -50,7 +50,7 @@ impl PlannedPoints {
         let lost = self.points.iter().filter(|point| !has(point));
         lost.map(|(at, stem)| {
             format!(
-                "  `recordings`: {stem}.wav at {at} there, not asked for (points may be added, not left out)"
+                "  `recordings`: {stem}.wav at {at} in the folder, not requested (points may be added, not left out)"
             )
         })
         .collect()
