@@ -66,7 +66,7 @@ impl Basis {
         self.sums.as_ref()
     }
 
-    /// The quantities of a target at `at` (m).
+    /// Mode shapes at the target `at` (m), and their mean products outside its focal disc.
     ///
     /// # Errors
     /// [`PlacementError::Target`] if no point of the grid is outside its focal disc.

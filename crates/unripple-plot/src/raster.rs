@@ -40,7 +40,7 @@ impl Raster {
         Self { columns: grid.columns, across, down, fills, shown }
     }
 
-    /// Values of the pixels, row by row from the top; not-a-number where nothing is to show.
+    /// Values of the pixels, row by row from the top; not-a-number where no value is shown.
     pub fn pixels(&self, values: &[f64]) -> Vec<f32> {
         let mut cells: Vec<f32> = values.iter().map(|value| *value as f32).collect();
         for (cell, neighbours) in &self.fills {

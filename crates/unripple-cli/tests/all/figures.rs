@@ -35,8 +35,8 @@ fn figures_say_what_they_show() {
     json(&field);
     holds(&shown, "snapshot.svg", ">at the instant of largest velocity,");
     json(&[&field[..], &["--at-ms", "19"]].concat());
-    holds(&shown, "snapshot.svg", ">at the instant asked for, t\u{a0}=\u{a0}19.00\u{a0}ms</text>");
-    holds(&shown, "traces.svg", ">instant asked for</text>");
+    holds(&shown, "snapshot.svg", ">at the requested instant, t\u{a0}=\u{a0}19.00\u{a0}ms</text>");
+    holds(&shown, "traces.svg", ">requested instant</text>");
 }
 
 #[test]

@@ -70,7 +70,8 @@ impl<'r> ModalPlant<'r> {
     }
 
     /// Gram matrix `G Gᵀ'` of the maps G from drives to the states of two plants, modes x modes: `(BᵀB') ∘
-    /// (VᵀV')` with B the input weights and V the tables.
+    /// (VᵀV')` with B the input weights of the plants and V their modes' velocities at the focal instant
+    /// after an impulse at each sample.
     pub fn gram(&self, other: &Self) -> Mat<f64> {
         let inputs = product(self.responses.input.transpose(), other.responses.input.as_ref());
         let tables = product(self.table.transpose(), other.table.as_ref());

@@ -135,7 +135,8 @@ impl<'a> State<'a> {
         })
     }
 
-    /// The diagonal element (1 or -1) of J for the value `row` of the state.
+    /// The element (1 or -1) for the value `row` of the state in J, the diagonal matrix of signs with which J
+    /// A is symmetric.
     pub fn sign(&self, row: usize) -> f64 {
         let count = self.modes.omegas.len();
         if (count..2 * count).contains(&row) { 1.0 } else { -1.0 }

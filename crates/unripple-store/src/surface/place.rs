@@ -141,8 +141,8 @@ impl Ground {
         }
     }
 
-    /// Whether the place with this number, counted from 0, of several that an entry stands for is on the sheet, or a fault.
-    /// Where `ground` is `None`, because the outline itself is faulty, every place is accepted.
+    /// Whether one of the places of an entry is on the sheet; adds a fault if not. `which` is its number among them,
+    /// counted from 0. Where `ground` is `None`, because the outline itself is faulty, every place is accepted.
     pub fn accepts(
         ground: Option<&Self>,
         entry: &Entry,

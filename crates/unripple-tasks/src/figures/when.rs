@@ -31,8 +31,8 @@ impl When {
             (Self::Waveform, false) => "peak of the first waveform",
             (Self::Fastest, true) => "instant of largest velocity",
             (Self::Fastest, false) => "instant of the first target's largest velocity",
-            (Self::Requested, true) => "instant asked for",
-            (Self::Requested, false) => "instant asked for at the first target",
+            (Self::Requested, true) => "requested instant",
+            (Self::Requested, false) => "requested instant at the first target",
         }
     }
 }

@@ -314,7 +314,7 @@ impl crate::Report for Report {
                 self.unknown_times,
                 "answers to touches not among these times: reported too late to know when they left",
             ),
-            (self.beyond_limit, "levels beyond the limit, played as strongly as it allows"),
+            (self.beyond_limit, "levels beyond the drive limit, played at that limit"),
             (self.failed_cues, "cues that could not be played"),
             (self.stale, "pulses dropped because they came too late"),
             (self.late, "commands late"),
