@@ -39,9 +39,7 @@ mod rerun;
 mod respond;
 mod shell;
 mod sweep;
-mod targets;
 mod view;
-mod waveforms;
 
 use args::{Arguments, Command};
 use common::Common;

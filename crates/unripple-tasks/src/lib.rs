@@ -70,6 +70,7 @@ pub mod stroke;
 mod surface;
 pub mod sweep;
 pub mod target;
+pub mod text_forms;
 pub mod waveform;
 mod window;
 
