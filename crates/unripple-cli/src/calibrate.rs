@@ -5,10 +5,10 @@ use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use crate::progress::{Bar, Terminal};
-use crate::targets::{places, positive, seconds};
+use crate::typed::{each, metres, of, places, seconds};
 use std::io::{BufRead, Write};
-use unripple_tasks::calibrate::{self, Ask, By, Hands, InputScales};
-use unripple_tasks::observed;
+use unripple_tasks::calibrate::{self, Ask, By, Hands};
+use unripple_tasks::{observed, text_forms};
 
 /// Measures responses; on a real device the user is asked to move the probe or to tap.
 pub fn run(options: &CalibrateOptions, common: &Common) -> Result<(), CliError> {
@@ -22,7 +22,7 @@ pub fn run(options: &CalibrateOptions, common: &Common) -> Result<(), CliError> 
 }
 
 fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
-    let pitch = options.grid_mm.map(|mm| positive(mm, "--grid-mm", "mm")).transpose()?;
+    let pitch_m = metres(options.grid_mm, "--grid-mm")?;
     if let Some(delay) = options.probe_delay_ms.filter(|delay| !delay.is_finite()) {
         return Err(CliError::Input(format!(
             "--probe-delay-ms: expected a finite time in ms, found {delay}"
@@ -31,7 +31,7 @@ fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
     Ok(Ask {
         surface: common.surface(&options.surface),
         device: options.device.ask(),
-        pitch_m: pitch.map(|mm| mm / 1e3),
+        pitch_m,
         points_m: places(&options.at, "--at")?,
         by: match options.by {
             WayName::Probe => By::Probe,
@@ -41,8 +41,8 @@ fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
         sweep_s: seconds(options.sweep_ms, "--sweep-ms")?,
         response_s: seconds(options.response_ms, "--response-ms")?,
         level: options.level,
-        wires: options.wire.iter().map(|text| wire(text)).collect::<Result<_, _>>()?,
-        input_scales: scales(&options.input_scale)?,
+        wires: each(&options.wire, "--wire", text_forms::wire)?,
+        input_scales: of("--input-scale", text_forms::input_scales(&options.input_scale))?,
         without: options.without.clone(),
         probe_delay_s: options.probe_delay_ms.map(|ms| ms / 1e3),
         no_model: options.no_model,
@@ -52,37 +52,6 @@ fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
         figure: options.figure.clone(),
         output: options.output.clone(),
     })
-}
-
-/// Parses a channel that has another name than its actuator, sensor or probe: `a1=system:playback_3`.
-fn wire(text: &str) -> Result<(String, String), CliError> {
-    match text.split_once('=') {
-        Some((name, channel)) if !name.is_empty() && !channel.is_empty() => {
-            Ok((name.to_owned(), channel.to_owned()))
-        }
-        _ => Err(CliError::Input(format!("--wire {text}: expected NAME=CHANNEL, found `{text}`"))),
-    }
-}
-
-/// Parses the scales of inputs: `probe=0.5`, or without a name the scale of all inputs.
-fn scales(typed: &[String]) -> Result<InputScales, CliError> {
-    let mut scales = InputScales::default();
-    for text in typed {
-        let (name, number) = text.split_once('=').map_or((None, text.as_str()), |(name, n)| (Some(name), n));
-        let scale = match number.trim().parse::<f64>() {
-            Ok(scale) if scale.is_finite() && scale != 0.0 => scale,
-            _ => {
-                return Err(CliError::Input(format!(
-                    "--input-scale {text}: expected a number other than 0, as in probe=0.5, found {number}"
-                )));
-            }
-        };
-        match name {
-            Some(name) => drop(scales.named.insert(name.into(), scale)),
-            None => scales.all = Some(scale),
-        }
-    }
-    Ok(scales)
 }
 
 /// Says on standard error what to do, and waits for Enter once it is done.

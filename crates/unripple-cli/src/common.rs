@@ -4,13 +4,7 @@ use crate::args::Arguments;
 use crate::error::CliError;
 use std::collections::BTreeMap;
 use unripple_tasks::SurfaceAsk;
-
-/// A key and the text behind its `=`, neither with spaces around it; `None` without a key or without `=`.
-pub fn key_and_value(text: &str) -> Option<(&str, &str)> {
-    let (key, value) = text.split_once('=')?;
-    let (key, value) = (key.trim(), value.trim());
-    (!key.is_empty()).then_some((key, value))
-}
+use unripple_tasks::text_forms::key_and_value;
 
 /// The options that are common to all commands.
 pub struct Common {

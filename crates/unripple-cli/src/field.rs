@@ -4,8 +4,9 @@ use crate::args::FieldOptions;
 use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
-use crate::targets::{numbers, places, seconds};
+use crate::typed::{of, places, seconds};
 use unripple_tasks::field::{self, Ask, DriveAsk};
+use unripple_tasks::text_forms;
 
 /// Measures what a drive does to a surface.
 pub fn run(options: &FieldOptions, common: &Common) -> Result<(), CliError> {
@@ -20,18 +21,9 @@ pub fn run(options: &FieldOptions, common: &Common) -> Result<(), CliError> {
         output: options.output.clone(),
         no_figures: options.no_figures,
         columns: options.columns,
-        movie_s: options.movie_ms.as_deref().map(movie).transpose()?,
+        movie_s: of("--movie-ms", options.movie_ms.as_deref().map(text_forms::interval).transpose())?,
         frames: options.frames,
         between: options.between.interpolation(),
     };
     output::perform(common.json, &ask, field::run)
-}
-
-/// Start and end of the animation, in seconds.
-fn movie(text: &str) -> Result<[f64; 2], CliError> {
-    let values = numbers(text, "--movie-ms", "FROM,TO in ms", 2, 2)?;
-    if !(values[0] >= 0.0 && values[1] > values[0]) {
-        return Err(CliError::Input(format!("--movie-ms {text}: expected 0 <= FROM < TO, found otherwise")));
-    }
-    Ok([values[0] / 1e3, values[1] / 1e3])
 }

@@ -4,16 +4,15 @@ use crate::args::FitOptions;
 use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
-use crate::targets::{places, positive};
+use crate::typed::{metres, places};
 use unripple_tasks::fit::{self, Ask};
 
 /// Fits a model to a library.
 pub fn run(options: &FitOptions, common: &Common) -> Result<(), CliError> {
     let accuracy = common.accuracy_alone()?;
-    let pitch = options.grid_mm.map(|mm| positive(mm, "--grid-mm", "mm"));
     let ask = Ask {
         library: options.library.clone().into(),
-        pitch_m: pitch.transpose()?.map(|mm| mm / 1e3),
+        pitch_m: metres(options.grid_mm, "--grid-mm")?,
         points_m: places(&options.at, "--at")?,
         strays: options.strays,
         profile: options.profile,

@@ -3,14 +3,14 @@
 use crate::args::{FocusOptions, LossName};
 use crate::common::Common;
 use crate::error::CliError;
-use crate::targets::{self, places, seconds};
-use crate::{output, waveforms};
+use crate::output;
+use crate::typed::{self, each, milli, places, seconds};
 use unripple_tasks::focus::{self, Losses};
-use unripple_tasks::{stroke, waveform};
+use unripple_tasks::{stroke, text_forms, waveform};
 
 /// Computes a drive that focuses, or one for waveforms or a stroke, as the options say.
 pub fn run(options: &FocusOptions, common: &Common) -> Result<(), CliError> {
-    waveforms::check(options)?;
+    check(options)?;
     let targets = &options.targets;
     if let Some(path) = &targets.path {
         output::perform(common.json, &stroke_ask(common, options, path)?, stroke::run)
@@ -18,6 +18,35 @@ pub fn run(options: &FocusOptions, common: &Common) -> Result<(), CliError> {
         output::perform(common.json, &waveform_ask(common, options)?, waveform::run)
     } else {
         output::perform(common.json, &ask(common, options)?, focus::run)
+    }
+}
+
+/// Refuses combinations of options that are not possible.
+fn check(options: &FocusOptions) -> Result<(), CliError> {
+    let targets = &options.targets;
+    let (waves, path) = (!targets.waveform.is_empty(), targets.path.is_some());
+    let levelled = targets.peak_um.is_some() || targets.felt_db.is_some() || targets.full_limit;
+    let bare = targets.at.is_empty() && targets.shape.is_empty() && !levelled;
+    let paced = targets.speed_mm_s.is_some() || targets.level_mm_s.is_some();
+    let wrong = [
+        (waves && path, "--waveform: expected no --path beside it, found one"),
+        (
+            !waves && !targets.silent.is_empty(),
+            "--silent: expected --waveform X,Y,WHAT beside it, found none",
+        ),
+        (!path && paced, "--speed-mm-s, --level-mm-s: expected --path beside them, found none"),
+        (
+            (waves || path) && !bare,
+            "--waveform, --path: expected no --at, --shape, --peak-um, --felt-db or --full-limit beside them, found one",
+        ),
+        (
+            (waves || path) && !options.finger.is_empty(),
+            "--waveform, --path: expected no --finger beside them, found one",
+        ),
+    ];
+    match wrong.into_iter().find(|(is_so, _)| *is_so) {
+        Some((_, text)) => Err(CliError::Input(text.into())),
+        None => Ok(()),
     }
 }
 
@@ -31,9 +60,9 @@ fn ask(common: &Common, options: &FocusOptions) -> Result<focus::Ask, CliError> 
     }
     Ok(focus::Ask {
         surface: common.surface(&options.surface),
-        points: targets::points(&options.targets)?,
-        shapes: targets::shapes(&options.targets)?,
-        level: targets::level(&options.targets)?,
+        points: options.targets.points()?,
+        shapes: options.targets.shapes()?,
+        level: options.targets.level()?,
         method: options.method.method(),
         strength: options.strength,
         push: options.push,
@@ -65,7 +94,7 @@ fn ask(common: &Common, options: &FocusOptions) -> Result<focus::Ask, CliError> 
 fn waveform_ask(common: &Common, options: &FocusOptions) -> Result<waveform::Ask, CliError> {
     Ok(waveform::Ask {
         surface: common.surface(&options.surface),
-        waveforms: waveforms::waveforms(&options.targets)?,
+        waveforms: each(&options.targets.waveform, "--waveform", text_forms::waveform)?,
         silent_m: places(&options.targets.silent, "--silent")?,
         window_s: seconds(options.window_ms, "--window-ms")?,
         on: options.on.as_ref().map(Into::into),
@@ -77,12 +106,15 @@ fn waveform_ask(common: &Common, options: &FocusOptions) -> Result<waveform::Ask
 }
 
 fn stroke_ask(common: &Common, options: &FocusOptions, path: &str) -> Result<stroke::Ask, CliError> {
-    let (path, speed_m_s, level_m_s) = waveforms::stroke(&options.targets, path)?;
+    let Some(speed_m_s) = milli(options.targets.speed_mm_s, "--speed-mm-s", "mm/s")? else {
+        return Err(CliError::Input("--path: expected --speed-mm-s V beside it, found none".into()));
+    };
+    let level_m_s = milli(options.targets.level_mm_s, "--level-mm-s", "mm/s")?;
     Ok(stroke::Ask {
         surface: common.surface(&options.surface),
-        path,
+        path: typed::of("--path", text_forms::path(path))?,
         speed_m_s,
-        level_m_s,
+        level_m_s: level_m_s.unwrap_or(stroke::Ask::default().level_m_s),
         window_s: seconds(options.window_ms, "--window-ms")?,
         on: options.on.as_ref().map(Into::into),
         judge_hz: options.judge_hz,

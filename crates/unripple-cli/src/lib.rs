@@ -39,6 +39,7 @@ mod rerun;
 mod respond;
 mod shell;
 mod sweep;
+mod typed;
 mod view;
 
 use args::{Arguments, Command};

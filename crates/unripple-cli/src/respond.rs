@@ -4,7 +4,7 @@ use crate::args::RespondOptions;
 use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
-use crate::targets::{positive, seconds};
+use crate::typed::{positive, seconds};
 use unripple_tasks::respond::{self, Ask};
 
 /// Computes a library of responses from the model.

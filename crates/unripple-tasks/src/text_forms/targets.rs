@@ -1,100 +1,72 @@
-//! Targets on the command line: `X,Y[,GAIN[,HZ]]` and shapes, in millimetres.
+//! Targets and paths: points with gains and rates, shapes and lines, in mm.
 
-use crate::args::TargetOptions;
-use crate::error::CliError;
-use unripple::core::Point;
-use unripple_tasks::Place;
-use unripple_tasks::target::{LevelAsk, PointAsk, ShapeAsk};
+use super::numbers::{FormError, above_zero, numbers};
+use crate::target::{LineAsk, PointAsk, ShapeAsk};
 
-/// Parses `least` to `most` numbers separated by commas; `option` and `form` are named in errors.
-pub fn numbers(
-    text: &str,
-    option: &str,
-    form: &str,
-    least: usize,
-    most: usize,
-) -> Result<Vec<f64>, CliError> {
-    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-    let wrong = |found: String| CliError::Input(format!("{option} {text}: expected {form}, found {found}"));
-    if !(least..=most).contains(&parts.len()) {
-        return Err(wrong(format!("{} numbers", parts.len())));
-    }
-    parts
-        .iter()
-        .map(|part| match part.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(wrong(format!("`{part}`"))),
-        })
-        .collect()
-}
-
-/// Parses a place `X,Y` in millimetres.
-pub fn place(text: &str, option: &str) -> Result<Point, CliError> {
-    let mm = numbers(text, option, "X,Y in mm", 2, 2)?;
-    Ok(Point::from_mm(mm[0], mm[1]))
-}
-
-/// Checks that a number is above 0; the error names its option and unit.
-pub fn positive(value: f64, option: &str, unit: &str) -> Result<f64, CliError> {
-    if value.is_finite() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(CliError::Input(format!("{option}: expected a number above 0 {unit}, found {value}")))
-    }
-}
-
-/// The level of the drive that the options ask for.
-pub fn level(options: &TargetOptions) -> Result<LevelAsk, CliError> {
-    Ok(match (options.felt_db, options.peak_um, options.full_limit) {
-        (Some(db), ..) => LevelAsk::FeltDb(db),
-        (None, Some(um), _) => LevelAsk::PeakM(positive(um, "--peak-um", "µm")? / 1e6),
-        (None, None, true) => LevelAsk::Limit,
-        (None, None, false) => LevelAsk::Linear,
-    })
-}
-
-/// Converts a time above 0 from milliseconds to seconds.
-pub fn seconds(ms: Option<f64>, option: &str) -> Result<Option<f64>, CliError> {
-    ms.map(|ms| Ok(positive(ms, option, "ms")? / 1e3)).transpose()
-}
-
-/// The points asked for, in the order typed.
-pub fn points(options: &TargetOptions) -> Result<Vec<PointAsk>, CliError> {
-    options.at.iter().map(|text| point(text)).collect()
-}
-
-/// The shapes asked for, in the order typed.
-pub fn shapes(options: &TargetOptions) -> Result<Vec<ShapeAsk>, CliError> {
-    options.shape.iter().map(|text| shape(text, "--shape")).collect()
-}
-
-fn point(text: &str) -> Result<PointAsk, CliError> {
-    let values = numbers(text, "--at", "X,Y[,GAIN[,HZ]] in mm and Hz", 2, 4)?;
+/// Reads a point to be in focus: `X,Y[,GAIN[,HZ]]` in mm, with its gain and its repetition rate in Hz.
+///
+/// # Errors
+/// [`FormError`] of another form, and of a rate that is not above 0.
+///
+/// ```
+/// let point = unripple_tasks::text_forms::point("62,90,-0.5,50")?;
+/// assert_eq!((point.at_m, point.gain, point.rate_hz), ([0.062, 0.09], -0.5, Some(50.0)));
+/// # Ok::<(), unripple_tasks::text_forms::FormError>(())
+/// ```
+pub fn point(text: &str) -> Result<PointAsk, FormError> {
+    let values = numbers(text, "X,Y[,GAIN[,HZ]] in mm and Hz", 2, 4)?;
     let gain = values.get(2).copied().unwrap_or(1.0);
-    let rate = values.get(3).map(|rate| positive(*rate, &format!("--at {text}: rate"), "Hz"));
+    let rate = values.get(3).map(|rate| above_zero(*rate, "Hz").map_err(|error| error.within(text, "rate")));
     Ok(PointAsk { at_m: [values[0] / 1e3, values[1] / 1e3], gain, rate_hz: rate.transpose()? })
 }
 
-/// Parses a shape: `triangle:X,Y,SIZE` or `circle:X,Y,R`, which are outlines, or an SVG file, whose paths say whether
-/// they are filled or stroked.
-pub fn shape(text: &str, option: &str) -> Result<ShapeAsk, CliError> {
-    let form = |rest: &str, name: &str| {
-        let values = numbers(rest, &format!("{option} {name}"), "X,Y and a size in mm", 3, 3)?;
-        let size = positive(values[2], &format!("{option} {text}: size"), "mm")?;
-        Ok::<_, CliError>(([values[0] / 1e3, values[1] / 1e3], size / 1e3))
+/// Reads a shape: `triangle:X,Y,SIZE` or `circle:X,Y,R` in mm, which are outlines, or the path of an SVG file, whose paths say whether they
+/// are filled or stroked.
+///
+/// # Errors
+/// [`FormError`] of a triangle or circle without three numbers, or whose size is not above 0.
+///
+/// ```
+/// use unripple_tasks::target::ShapeAsk;
+/// use unripple_tasks::text_forms::shape;
+///
+/// assert_eq!(shape("circle:75,75,20")?, ShapeAsk::Circle { centre_m: [0.075, 0.075], radius_m: 0.02 });
+/// assert_eq!(shape("arrow.svg")?, ShapeAsk::Svg { file: "arrow.svg".into() });
+/// # Ok::<(), unripple_tasks::text_forms::FormError>(())
+/// ```
+pub fn shape(text: &str) -> Result<ShapeAsk, FormError> {
+    let sized = |rest: &str, name: &str| {
+        let mm = numbers(rest, "X,Y and a size in mm", 3, 3).map_err(|error| error.behind(name))?;
+        let size = above_zero(mm[2], "mm").map_err(|error| error.within(text, "size"))?;
+        Ok::<_, FormError>(([mm[0] / 1e3, mm[1] / 1e3], size / 1e3))
     };
     if let Some(rest) = text.strip_prefix("triangle:") {
-        form(rest, "triangle:").map(|(centre_m, side_m)| ShapeAsk::Triangle { centre_m, side_m })
+        sized(rest, "triangle:").map(|(centre_m, side_m)| ShapeAsk::Triangle { centre_m, side_m })
     } else if let Some(rest) = text.strip_prefix("circle:") {
-        form(rest, "circle:").map(|(centre_m, radius_m)| ShapeAsk::Circle { centre_m, radius_m })
+        sized(rest, "circle:").map(|(centre_m, radius_m)| ShapeAsk::Circle { centre_m, radius_m })
     } else {
         Ok(ShapeAsk::Svg { file: text.into() })
     }
 }
 
-/// Parses places `X,Y` in millimetres; gives them in metres.
-pub fn places(typed: &[String], option: &str) -> Result<Vec<Place>, CliError> {
-    typed.iter().map(|text| place(text, option).map(|at| [at.x, at.y])).collect()
+/// Reads the path of a moving focus: `line:X1,Y1,X2,Y2` in mm, or a shape as [`shape()`] reads it.
+///
+/// # Errors
+/// [`FormError`] of a line without four finite numbers; those of [`shape()`].
+///
+/// ```
+/// use unripple_tasks::target::{LineAsk, ShapeAsk};
+///
+/// let line = LineAsk { points_m: vec![[0.04, 0.075], [0.11, 0.075]], closed: false };
+/// let path = unripple_tasks::text_forms::path("line:40,75,110,75")?;
+/// assert_eq!(path, ShapeAsk::Lines { lines: vec![line], filled: false });
+/// # Ok::<(), unripple_tasks::text_forms::FormError>(())
+/// ```
+pub fn path(text: &str) -> Result<ShapeAsk, FormError> {
+    let Some(rest) = text.strip_prefix("line:") else { return shape(text) };
+    let mm = numbers(rest, "X1,Y1,X2,Y2 in mm", 4, 4).map_err(|error| error.behind("line:"))?;
+    let points_m = vec![[mm[0] / 1e3, mm[1] / 1e3], [mm[2] / 1e3, mm[3] / 1e3]];
+    Ok(ShapeAsk::Lines { lines: vec![LineAsk { points_m, closed: false }], filled: false })
 }
 
 #[cfg(test)]
@@ -103,31 +75,33 @@ mod tests {
 
     #[test]
     fn points_come_with_gain_and_rate() {
-        let owned = |list: &[&str]| list.iter().map(|s| (*s).to_owned()).collect();
-        let options = TargetOptions {
-            at: owned(&["62,90,-0.5,5", "10,20"]),
-            shape: owned(&["circle:75,75,20", "arrow.svg"]),
-            ..TargetOptions::default()
-        };
-        let found = points(&options).unwrap();
-        assert_eq!((found[0].gain, found[0].rate_hz), (-0.5, Some(5.0)));
-        assert_eq!((found[1].gain, found[1].rate_hz), (1.0, None));
-        let drawn = [
-            ShapeAsk::Circle { centre_m: [0.075, 0.075], radius_m: 0.02 },
-            ShapeAsk::Svg { file: "arrow.svg".into() },
-        ];
-        assert_eq!(shapes(&options).unwrap(), drawn);
-        for bad in ["triangle:1,2", "circle:1,2,-3"] {
-            assert!(shape(bad, "--shape").is_err(), "{bad}");
-        }
+        let all = point("62,90,-0.5,5").unwrap();
+        assert_eq!((all.gain, all.rate_hz), (-0.5, Some(5.0)));
+        let bare = point("10,20").unwrap();
+        assert_eq!((bare.gain, bare.rate_hz), (1.0, None));
+        let said = point("62,90,1,0").unwrap_err().of("--at");
+        assert_eq!(said, "--at 62,90,1,0: rate: expected a number above 0 Hz, found 0");
     }
 
     #[test]
-    fn a_place_is_two_finite_numbers() {
-        assert_eq!(place("62, 90", "--at").unwrap(), Point::from_mm(62.0, 90.0));
-        for bad in ["", "62", "62;90", "62,NaN", "62,inf", "1,2,3", "a,b"] {
-            let CliError::Input(text) = place(bad, "--at").unwrap_err() else { panic!("{bad}") };
-            assert!(text.starts_with("--at ") && text.contains("expected X,Y in mm"), "{text}");
-        }
+    fn shapes_are_refused_by_what_is_wrong_with_them() {
+        let said = |text: &str| shape(text).unwrap_err().of("--shape");
+        assert_eq!(
+            said("triangle:1,2"),
+            "--shape triangle: 1,2: expected X,Y and a size in mm, found 2 numbers"
+        );
+        assert_eq!(
+            said("circle:1,2,-3"),
+            "--shape circle:1,2,-3: size: expected a number above 0 mm, found -3"
+        );
+    }
+
+    #[test]
+    fn paths_are_lines_circles_and_drawings() {
+        let round = ShapeAsk::Circle { centre_m: [0.075, 0.075], radius_m: 0.01 };
+        assert_eq!(path("circle:75,75,10").unwrap(), round);
+        assert_eq!(path("arrow.svg").unwrap(), ShapeAsk::Svg { file: "arrow.svg".into() });
+        let said = path("line:40,75,110").unwrap_err().of("--path");
+        assert_eq!(said, "--path line: 40,75,110: expected X1,Y1,X2,Y2 in mm, found 3 numbers");
     }
 }

@@ -55,9 +55,13 @@ pub struct WaveformAsk {
     pub level_m: f64,
 }
 
-/// Default peak displacement of a waveform, in m: felt clearly at most frequencies.
+/// Peak displacement of a waveform if none is given, in m: well above the threshold of touch at 250 Hz (0.1 µm), and far below a film's
+/// thickness.
+pub(crate) const LEVEL_M: f64 = 1e-6;
+
+/// [`LEVEL_M`], for serde.
 fn micrometre() -> f64 {
-    1e-6
+    LEVEL_M
 }
 
 /// Targets with their waveforms, places of silence, and the surface that the drive is evaluated on.
