@@ -14,7 +14,6 @@ mod cache;
 mod calibrate;
 mod check;
 mod common;
-mod compare;
 mod config;
 mod design;
 mod devices;
@@ -22,7 +21,6 @@ mod doctor;
 mod drift;
 mod error;
 mod export;
-mod field;
 mod fit;
 mod focus;
 mod interrupt;
@@ -106,8 +104,8 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Place(options) => place::run(options, common),
         Command::Respond(options) => respond::run(options, common),
         Command::Focus(options) => focus::run(options, common),
-        Command::Compare(options) => compare::run(options, common),
-        Command::Field(options) => field::run(options, common),
+        Command::Compare(options) => args::compare::run(options, common),
+        Command::Field(options) => args::field::run(options, common),
         Command::Sweep(options) => sweep::run(options, common),
         Command::Play(options) => play::run(options, common),
         Command::View(options) => view::run(options, common),

@@ -1,9 +1,11 @@
 //! The options of the command line: lengths in mm, times in ms unless an option says otherwise.
 
 mod calibrate;
+pub mod compare;
 mod drift;
 mod examples;
 mod export;
+pub mod field;
 mod fit;
 mod focus;
 mod heading;
