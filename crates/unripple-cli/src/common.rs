@@ -1,6 +1,5 @@
 //! Options common to all commands: how results are printed, and keys of the surface file that are changed.
 
-use crate::args::Arguments;
 use crate::error::CliError;
 use std::collections::BTreeMap;
 use unripple_tasks::SurfaceAsk;
@@ -14,13 +13,13 @@ pub struct Common {
 }
 
 impl Common {
-    /// Reads the common options.
+    /// Reads the common options: `--json`, `--set` and `--accuracy`.
     ///
     /// # Errors
     /// [`CliError::Input`] of `--set` without a key and a value, or with one key twice.
-    pub fn of(arguments: &Arguments) -> Result<Self, CliError> {
+    pub fn of(json: bool, keys: &[String], accuracy: Option<&str>) -> Result<Self, CliError> {
         let mut set = BTreeMap::new();
-        for text in &arguments.set {
+        for text in keys {
             let refused = |expected: &str| CliError::Input(format!("--set {text}: expected {expected}"));
             let (key, value) =
                 key_and_value(text).ok_or_else(|| refused("KEY=VALUE, as in sheet.tension_n_per_m=220"))?;
@@ -28,12 +27,12 @@ impl Common {
                 return Err(refused("each key once"));
             }
         }
-        if let Some(accuracy) = &arguments.accuracy
-            && set.insert("accuracy".into(), accuracy.clone()).is_some()
+        if let Some(accuracy) = accuracy
+            && set.insert("accuracy".into(), accuracy.into()).is_some()
         {
             return Err(CliError::Input("--accuracy: expected once, found --set accuracy as well".into()));
         }
-        Ok(Self { json: arguments.json, set })
+        Ok(Self { json, set })
     }
 
     /// The surface of this name, with the changed keys.

@@ -15,26 +15,15 @@ mod calibrate;
 mod check;
 mod common;
 mod config;
-mod design;
-mod devices;
-mod doctor;
-mod drift;
 mod error;
-mod export;
-mod fit;
 mod focus;
 mod interrupt;
 mod lines;
-mod materials;
-mod modes;
 mod options;
 mod output;
-mod place;
 mod play;
 mod progress;
-mod reproduce;
 mod rerun;
-mod respond;
 mod shell;
 mod sweep;
 mod typed;
@@ -45,6 +34,10 @@ use common::Common;
 use error::CliError;
 use lines::Talk;
 use std::ffi::OsString;
+use unripple_paper::reproduce;
+use unripple_tasks::{
+    compare, design, devices, doctor, drift, export, field, fit, materials, modes, place, respond,
+};
 
 /// The commit that the program was built from; empty where that is not known.
 pub const COMMIT: &str = env!("UNRIPPLE_COMMIT");
@@ -93,27 +86,28 @@ fn answer(given: &[OsString]) -> Result<(), CliError> {
 }
 
 fn run(arguments: &Arguments) -> Result<(), CliError> {
-    let common = &Common::of(arguments)?;
+    let json = arguments.json;
+    let common = &Common::of(json, &arguments.set, arguments.accuracy.as_deref())?;
     match &arguments.command {
         Command::Calibrate(options) => calibrate::run(options, common),
-        Command::Export(options) => export::run(options, common),
-        Command::Fit(options) => fit::run(options, common),
+        Command::Export(options) => output::perform(json, &options.ask(common)?, export::run),
+        Command::Fit(options) => output::perform(json, &options.ask(common)?, fit::run),
         Command::Check(options) => check::run(options, common),
-        Command::Design(options) => design::run(options, common),
-        Command::Modes(options) => modes::run(options, common),
-        Command::Place(options) => place::run(options, common),
-        Command::Respond(options) => respond::run(options, common),
+        Command::Design(options) => output::perform(json, &options.ask(common), design::run),
+        Command::Modes(options) => output::perform(json, &options.ask(common), modes::run),
+        Command::Place(options) => output::perform(json, &options.ask(common)?, place::run),
+        Command::Respond(options) => output::perform(json, &options.ask(common)?, respond::run),
         Command::Focus(options) => focus::run(options, common),
-        Command::Compare(options) => args::compare::run(options, common),
-        Command::Field(options) => args::field::run(options, common),
+        Command::Compare(options) => output::perform(json, &options.ask(common)?, compare::run),
+        Command::Field(options) => output::perform(json, &options.ask(common)?, field::run),
         Command::Sweep(options) => sweep::run(options, common),
         Command::Play(options) => play::run(options, common),
         Command::View(options) => view::run(options, common),
-        Command::Materials(options) => materials::run(options, common),
-        Command::Devices(options) => devices::run(options, common),
-        Command::Doctor(options) => doctor::run(options, common),
-        Command::Drift(options) => drift::run(options, common),
-        Command::Reproduce(options) => reproduce::run(options, common),
+        Command::Materials(options) => output::perform(json, &options.ask(common)?, materials::run),
+        Command::Devices(options) => output::perform(json, &options.ask(common)?, devices::run),
+        Command::Doctor(options) => output::perform(json, &options.ask(common), doctor::run),
+        Command::Drift(options) => output::perform(json, &options.ask(common), drift::run),
+        Command::Reproduce(options) => output::perform(json, &options.ask(common)?, reproduce::run),
         Command::Rerun(options) => rerun::run(options, common),
         Command::Cache(options) => cache::run(options, common),
         Command::Completions(options) => shell::completions(options, common),

@@ -1,7 +1,9 @@
 //! Options of `unripple drift`.
 
 use super::{DeviceOptions, examples, heading};
+use crate::common::Common;
 use clap::Args;
+use unripple_tasks::drift::Ask;
 
 /// Options of `drift`.
 #[derive(Debug, Args)]
@@ -26,4 +28,18 @@ pub struct DriftOptions {
     /// Virtual: rate at which the simulated sheet's tension changes, in per cent per minute.
     #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true, help_heading = heading::VIRTUAL)]
     pub changing_percent_per_min: f64,
+}
+
+impl DriftOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> Ask {
+        Ask {
+            surface: common.surface(&self.surface),
+            device: self.device.ask(),
+            seconds: self.seconds,
+            range: self.within_percent / 100.0,
+            changed: self.changed_percent / 100.0,
+            changing_per_min: self.changing_percent_per_min / 100.0,
+        }
+    }
 }

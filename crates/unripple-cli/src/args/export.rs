@@ -1,8 +1,11 @@
 //! Options of `unripple export`.
 
 use super::{examples, heading};
+use crate::common::Common;
+use crate::error::CliError;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use unripple_tasks::export::Ask;
 
 /// Formats that libraries are exported to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -45,4 +48,19 @@ pub struct ExportOptions {
     /// SOFA: licence of the data.
     #[arg(long, value_name = "TEXT", help_heading = heading::SOFA)]
     pub license: Option<String>,
+}
+
+impl ExportOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> Result<Ask, CliError> {
+        common.without_surface()?;
+        Ok(Ask {
+            library: self.library.clone().into(),
+            output: self.output.clone(),
+            format: self.format.map(|format| format.format()),
+            author: self.author.clone(),
+            organization: self.organization.clone(),
+            license: self.license.clone(),
+        })
+    }
 }

@@ -1,8 +1,12 @@
 //! Options of `unripple fit`.
 
 use super::{examples, heading};
+use crate::common::Common;
+use crate::error::CliError;
+use crate::typed::{metres, places};
 use clap::Args;
 use std::path::PathBuf;
+use unripple_tasks::fit::Ask;
 
 /// Options of `fit`.
 #[derive(Debug, Args)]
@@ -32,4 +36,20 @@ pub struct FitOptions {
     /// or --at.
     #[arg(short, long, value_name = "FITTED_LIBRARY", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
+}
+
+impl FitOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> Result<Ask, CliError> {
+        Ok(Ask {
+            accuracy: common.accuracy_alone()?,
+            library: self.library.clone().into(),
+            pitch_m: metres(self.grid_mm, "--grid-mm")?,
+            points_m: places(&self.at, "--at")?,
+            strays: self.strays,
+            profile: self.profile,
+            even_if_doubtful: self.even_if_doubtful,
+            output: self.output.clone(),
+        })
+    }
 }

@@ -1,11 +1,11 @@
-//! The options of the command line: lengths in mm, times in ms unless an option says otherwise.
+//! The options of the command line: lengths in mm, times in ms unless an option says otherwise; and the requests that they make.
 
 mod calibrate;
-pub mod compare;
+mod compare;
 mod drift;
 mod examples;
 mod export;
-pub mod field;
+mod field;
 mod fit;
 mod focus;
 mod heading;
@@ -17,10 +17,15 @@ mod shell;
 mod sweep;
 mod view;
 
+use crate::common::Common;
+use crate::error::CliError;
+use crate::typed::{positive, seconds};
 pub use calibrate::{CalibrateOptions, DeviceOptions};
 use clap::{Args, Parser, Subcommand};
+pub use compare::CompareOptions;
 pub use drift::DriftOptions;
 pub use export::ExportOptions;
+pub use field::FieldOptions;
 pub use fit::FitOptions;
 pub use focus::{FocusOptions, TargetOptions};
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
@@ -30,6 +35,8 @@ pub use rerun::RerunOptions;
 pub use shell::{CacheOptions, CompletionsOptions, ManOptions};
 use std::path::PathBuf;
 pub use sweep::SweepOptions;
+use unripple_paper::reproduce;
+use unripple_tasks::{design, devices, materials, modes, respond};
 pub use view::ViewOptions;
 
 /// Waves that meet under a fingertip: design, simulate and focus a reverberant touch surface.
@@ -146,6 +153,14 @@ pub struct MaterialsOptions {
     pub name: Option<String>,
 }
 
+impl MaterialsOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> Result<materials::Ask, CliError> {
+        common.without_surface()?;
+        Ok(materials::Ask { name: self.name.clone() })
+    }
+}
+
 /// Options of `devices`.
 #[derive(Debug, Args)]
 #[command(after_help = examples::DEVICES)]
@@ -155,12 +170,27 @@ pub struct DevicesOptions {
     pub server: Option<String>,
 }
 
+impl DevicesOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> Result<devices::Ask, CliError> {
+        common.without_surface()?;
+        Ok(devices::Ask { server: self.server.clone() })
+    }
+}
+
 /// Options of `design`.
 #[derive(Debug, Args)]
 #[command(after_help = examples::DESIGN)]
 pub struct DesignOptions {
     /// A surface file, or the name of a built-in surface.
     pub surface: String,
+}
+
+impl DesignOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> design::Ask {
+        design::Ask { surface: common.surface(&self.surface) }
+    }
 }
 
 /// Options of `modes`.
@@ -172,6 +202,13 @@ pub struct ModesOptions {
     /// Highest frequency, in Hz; by default the top of the surface's band.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub max_hz: Option<f64>,
+}
+
+impl ModesOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> modes::Ask {
+        modes::Ask { surface: common.surface(&self.surface), top_hz: self.max_hz, ..modes::Ask::default() }
+    }
 }
 
 /// Options of `respond`.
@@ -192,85 +229,16 @@ pub struct RespondOptions {
     pub output: PathBuf,
 }
 
-/// Options of `compare`.
-#[derive(Debug, Args)]
-#[command(after_help = examples::COMPARE)]
-pub struct CompareOptions {
-    /// Surface files, or names of built-in surfaces.
-    #[arg(required = true)]
-    pub surface: Vec<String>,
-    /// Compare variants of each surface, one for each value of a key of its file, as in sheet.tension_n_per_m=200,300,400.
-    #[arg(long, value_name = "KEY=VALUE,VALUE", help_heading = heading::SURFACES)]
-    pub vary: Option<String>,
-    #[command(flatten)]
-    pub targets: TargetOptions,
-    /// Method to compare with time reversal; by default every method if there is one surface, only `concentrate` if there are several.
-    /// Repeatable.
-    #[arg(long, value_enum, help_heading = heading::METHOD)]
-    pub method: Vec<MethodName>,
-    /// Window T in ms; by default the one that `design` recommends for each surface.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TIME)]
-    pub window_ms: Option<f64>,
-    /// Simulate drives with modes up to this frequency, in Hz; by default up to twice the top of the band, at most 0.45 of the
-    /// sample rate.
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
-    pub judge_hz: Option<f64>,
-    /// Write no pictures.
-    #[arg(long, help_heading = heading::RESULTS)]
-    pub no_figures: bool,
-    /// Width of the picture, in columns of a printed page: 1 (86 mm) or 2 (178 mm, the default).
-    #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
-    pub columns: Option<usize>,
-    /// Folder for the report and picture; without it only the table is printed.
-    #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
-    pub output: Option<PathBuf>,
-}
-
-/// Options of `field`.
-#[derive(Debug, Args)]
-#[command(after_help = examples::FIELD)]
-pub struct FieldOptions {
-    /// A surface file, the name of a built-in surface, or a library of responses.
-    #[arg(value_name = "SURFACE|LIBRARY")]
-    pub surface: String,
-    /// The drive: a WAV file with one channel per actuator, in the actuators' units.
-    #[arg(long, value_name = "WAV", help_heading = heading::SIMULATION)]
-    pub drive: PathBuf,
-    /// Place to evaluate, in mm; by default where the velocity is largest. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::TARGETS)]
-    pub at: Vec<String>,
-    /// Instant to evaluate, in ms; by default that of the largest velocity at each place. Give one for all places, or one for
-    /// each --at.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TARGETS)]
-    pub at_ms: Vec<f64>,
-    /// Simulate the field with a finger, as the surface file describes it, resting at X,Y in mm. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::SIMULATION)]
-    pub finger: Vec<String>,
-    /// Period of a repeated drive, in ms; results are then those of the last full period.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
-    pub period_ms: Option<f64>,
-    /// Simulate the field with modes up to this frequency, in Hz; by default up to twice the top of the band, at most 0.45 of the
-    /// sample rate.
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
-    pub judge_hz: Option<f64>,
-    /// Write no pictures.
-    #[arg(long, help_heading = heading::RESULTS)]
-    pub no_figures: bool,
-    /// Width of the pictures, in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default it depends on the picture.
-    #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
-    pub columns: Option<usize>,
-    /// Folder for the report, snapshot, map of peaks and animation; without it only the report is printed.
-    #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
-    pub output: Option<PathBuf>,
-    /// Start and end of the animation in ms; by default from 6 ms before the evaluated instant to 3 ms after it.
-    #[arg(long, value_name = "FROM,TO", allow_hyphen_values = true, help_heading = heading::RESULTS)]
-    pub movie_ms: Option<String>,
-    /// Frames of the animation, at most 5000; 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 60, help_heading = heading::RESULTS)]
-    pub frames: usize,
-    /// How responses are interpolated for a place between the points of a library.
-    #[arg(long, value_enum, default_value_t, help_heading = heading::SIMULATION)]
-    pub between: BetweenName,
+impl RespondOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> Result<respond::Ask, CliError> {
+        Ok(respond::Ask {
+            surface: common.surface(&self.surface),
+            pitch_m: positive(self.grid_mm, "--grid-mm", "mm")? / 1e3,
+            length_s: seconds(self.length_ms, "--length-ms")?,
+            output: self.output.clone(),
+        })
+    }
 }
 
 /// Options of `reproduce`.
@@ -284,4 +252,12 @@ pub struct ReproduceOptions {
     /// Number of random placements of the actuators over which contrast is averaged, 2 to 10 000.
     #[arg(long, value_name = "N", default_value_t = 20)]
     pub placements: usize,
+}
+
+impl ReproduceOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> Result<reproduce::Ask, CliError> {
+        common.without_surface()?;
+        Ok(reproduce::Ask { output: Some(self.output.clone()), placements: self.placements })
+    }
 }

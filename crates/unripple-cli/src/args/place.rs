@@ -2,8 +2,13 @@
 
 use super::names::{MethodName, ObjectiveName};
 use super::{examples, heading};
+use crate::common::Common;
+use crate::error::CliError;
+use crate::typed::{each, of, places, seconds};
 use clap::Args;
 use std::path::PathBuf;
+use unripple_tasks::place::Ask;
+use unripple_tasks::text_forms::{distances, polygon, weighted};
 
 /// Options of `place`.
 #[derive(Debug, Args)]
@@ -94,4 +99,40 @@ pub struct PlaceOptions {
     /// Folder for the surface file with the placed actuators, the report and pictures; without it only the report is printed.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
+}
+
+impl PlaceOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> Result<Ask, CliError> {
+        let (points_m, weights) = of("--at", weighted(&self.at))?;
+        Ok(Ask {
+            surface: common.surface(&self.surface),
+            count: self.count,
+            keep: self.keep.clone(),
+            keep_all: self.keep_all,
+            like: self.like.clone(),
+            rim_m: of("--rim-mm", self.rim_mm.as_deref().map(distances).transpose())?,
+            within_m: each(&self.within, "--within", polygon)?,
+            keep_out_m: each(&self.keep_out, "--keep-out", polygon)?,
+            places_m: places(&self.place, "--place")?,
+            pitch_m: self.grid_mm.map(|mm| mm / 1e3),
+            apart_m: self.apart_mm.map(|mm| mm / 1e3),
+            points_m,
+            weights,
+            targets_within_m: each(&self.screen, "--screen", polygon)?,
+            targets: self.targets,
+            objective: self.objective.objective(),
+            share: self.share_percent / 100.0,
+            mounting_m: self.mounting_mm / 1e3,
+            tension: self.tension_percent / 100.0,
+            window_s: seconds(self.window_ms, "--window-ms")?,
+            restarts: self.restarts,
+            seed: self.seed,
+            up_to: self.up_to,
+            methods: self.method.iter().map(|name| name.method()).collect(),
+            output: self.output.clone(),
+            no_figures: self.no_figures,
+            columns: self.columns,
+        })
+    }
 }

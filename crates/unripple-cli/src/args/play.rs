@@ -1,9 +1,11 @@
 //! Options of `unripple play`.
 
 use super::{DeviceOptions, MethodName, examples, heading};
+use crate::common::Common;
 use clap::Args;
 use std::net::IpAddr;
 use std::path::PathBuf;
+use unripple_tasks::doctor;
 use unripple_tasks::play::TouchAsk;
 
 /// Options of `play`.
@@ -115,4 +117,16 @@ pub struct DoctorOptions {
     /// Network address at which `play` would open that port.
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
     pub listen: IpAddr,
+}
+
+impl DoctorOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> doctor::Ask {
+        doctor::Ask {
+            surface: common.surface(&self.surface),
+            device: self.device.ask(),
+            tuio: self.tuio,
+            listen: self.listen,
+        }
+    }
 }
