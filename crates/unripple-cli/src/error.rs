@@ -2,7 +2,6 @@
 
 use crate::options;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
-use unripple::act::{ActError, LevelKind};
 use unripple_tasks::TaskError;
 
 /// Error that ended a command.
@@ -23,22 +22,6 @@ pub enum CliError {
 impl From<clap::Error> for CliError {
     fn from(error: clap::Error) -> Self {
         Self::Usage(error)
-    }
-}
-
-impl From<ActError> for CliError {
-    fn from(error: ActError) -> Self {
-        match error {
-            ActError::Level { what, expected, found } => {
-                let option = match what {
-                    LevelKind::Peak => "--peak-um",
-                    LevelKind::Felt => "--felt-db",
-                };
-                Self::Input(format!("{option}: expected {expected}, found {found}"))
-            }
-            error if error.is_failed_work() => Self::work(error),
-            error => Self::input(error),
-        }
     }
 }
 
@@ -69,12 +52,7 @@ impl std::fmt::Display for CliError {
 }
 
 impl CliError {
-    /// Error of bad input, from its message.
-    pub fn input(error: impl std::fmt::Display) -> Self {
-        Self::Input(error.to_string())
-    }
-
-    /// Error of a computation or an output that failed, from its message.
+    /// Error of failed work, from its message.
     pub fn work(error: impl std::fmt::Display) -> Self {
         Self::Work(error.to_string())
     }
