@@ -1,13 +1,13 @@
 //! `unripple calibrate`: measures responses through a device, point by point, into a library.
 
-use crate::args::{CalibrateOptions, WayName};
+use crate::args::CalibrateOptions;
 use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use crate::progress::{Bar, Terminal};
 use crate::typed::{each, metres, of, places, seconds};
 use std::io::{BufRead, Write};
-use unripple_tasks::calibrate::{self, Ask, By, Hands};
+use unripple_tasks::calibrate::{self, Ask, Hands};
 use unripple_tasks::{observed, text_forms};
 
 /// Measures responses; on a real device the user is asked to move the probe or to tap.
@@ -33,10 +33,7 @@ fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
         device: options.device.ask(),
         pitch_m,
         points_m: places(&options.at, "--at")?,
-        by: match options.by {
-            WayName::Probe => By::Probe,
-            WayName::Tap => By::Tap,
-        },
+        by: options.by.into(),
         repeats: options.repeats,
         sweep_s: seconds(options.sweep_ms, "--sweep-ms")?,
         response_s: seconds(options.response_ms, "--response-ms")?,

@@ -1,12 +1,11 @@
 //! `unripple focus`: computes a drive, with its report and figures.
 
-use crate::args::{FocusOptions, LossName};
+use crate::args::FocusOptions;
 use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use crate::typed::{self, each, milli, places, seconds};
-use unripple_tasks::focus::{self, Losses};
-use unripple_tasks::{stroke, text_forms, waveform};
+use unripple_tasks::{focus, stroke, text_forms, waveform};
 
 /// Computes a drive that focuses, or one for waveforms or a stroke, as the options say.
 pub fn run(options: &FocusOptions, common: &Common) -> Result<(), CliError> {
@@ -63,7 +62,7 @@ fn ask(common: &Common, options: &FocusOptions) -> Result<focus::Ask, CliError> 
         points: options.targets.points()?,
         shapes: options.targets.shapes()?,
         level: options.targets.level()?,
-        method: options.method.method(),
+        method: options.method.into(),
         strength: options.strength,
         push: options.push,
         total_rms: options.total_rms,
@@ -72,12 +71,8 @@ fn ask(common: &Common, options: &FocusOptions) -> Result<focus::Ask, CliError> 
         economy: options.economy,
         rest: options.rest,
         window_s: seconds(options.window_ms, "--window-ms")?,
-        between: options.between.interpolation(),
-        losses: match options.losses {
-            LossName::None => Losses::None,
-            LossName::Uniform => Losses::Uniform,
-            LossName::PerMode => Losses::PerMode,
-        },
+        between: options.between.into(),
+        losses: options.losses.into(),
         duration_s: seconds(options.duration_ms, "--duration-ms")?,
         fingers_m: places(&options.finger, "--finger")?,
         finger_aware: options.finger_aware,

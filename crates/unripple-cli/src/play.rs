@@ -14,7 +14,7 @@ pub fn run(options: &PlayOptions, common: &Common) -> Result<(), CliError> {
         device: options.device.ask(),
         effect: options.effect.clone(),
         touch: options.touch.ask(),
-        method: options.method.method(),
+        method: options.method.into(),
         // Looked at by the task, after the files that are to be written.
         window_s: options.window_ms.map(|ms| ms / 1e3),
         block: options.block,

@@ -16,7 +16,7 @@ pub fn run(options: &ViewOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
         surface: common.surface(&options.surface),
         device: options.device.ask(),
-        method: options.method.method(),
+        method: options.method.into(),
         follow_tension: options.follow_tension,
         listen: options.listen.unwrap_or(IpAddr::V4(Ipv4Addr::LOCALHOST)),
         port: options.port,

@@ -54,7 +54,7 @@ impl DeviceOptions {
     /// Converts the options to a [`DeviceAsk`], in SI units.
     pub fn ask(&self) -> DeviceAsk {
         DeviceAsk {
-            device: self.device.kind(),
+            device: self.device.into(),
             jack_client: self.jack_client.clone(),
             jack_server: self.jack_server.clone(),
             freewheel: self.freewheel,

@@ -52,7 +52,7 @@ impl CompareOptions {
             surface: surfaces.next().unwrap_or_default(),
             others: surfaces.collect(),
             labels,
-            methods: self.method.iter().map(|name| name.method()).collect(),
+            methods: self.method.iter().copied().map(Into::into).collect(),
             points: self.targets.points()?,
             shapes: self.targets.shapes()?,
             level: self.targets.level()?,

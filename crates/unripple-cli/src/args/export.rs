@@ -1,31 +1,12 @@
 //! Options of `unripple export`.
 
+use super::names::FormatName;
 use super::{examples, heading};
 use crate::common::Common;
 use crate::error::CliError;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::PathBuf;
 use unripple_tasks::export::Ask;
-
-/// Formats that libraries are exported to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum FormatName {
-    /// A folder with a float32 WAV file for each point, one channel per actuator, and library.json.
-    Wav,
-    /// One SOFA file: AES69, convention GeneralFIR-E, with points as measurements and actuators as emitters.
-    Sofa,
-}
-
-impl FormatName {
-    /// The format that the name stands for.
-    pub fn format(self) -> unripple_tasks::export::Format {
-        use unripple_tasks::export::Format;
-        match self {
-            Self::Wav => Format::Wav,
-            Self::Sofa => Format::Sofa,
-        }
-    }
-}
 
 /// Options of `export`.
 #[derive(Debug, Args)]
@@ -57,7 +38,7 @@ impl ExportOptions {
         Ok(Ask {
             library: self.library.clone().into(),
             output: self.output.clone(),
-            format: self.format.map(|format| format.format()),
+            format: self.format.map(Into::into),
             author: self.author.clone(),
             organization: self.organization.clone(),
             license: self.license.clone(),

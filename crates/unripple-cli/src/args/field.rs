@@ -72,7 +72,7 @@ impl FieldOptions {
             columns: self.columns,
             movie_s: of("--movie-ms", self.movie_ms.as_deref().map(text_forms::interval).transpose())?,
             frames: self.frames,
-            between: self.between.interpolation(),
+            between: self.between.into(),
         })
     }
 }
