@@ -5,11 +5,7 @@ use crate::error::CliError;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{Arg, ArgAction, Command, CommandFactory, Parser};
 use std::ffi::OsString;
-use std::path::PathBuf;
-use toml::{Table, Value};
-
-/// The variable that names another file than the usual one; empty for none.
-const VARIABLE: &str = "UNRIPPLE_CONFIG";
+use unripple_store::{ConfigFile, Setting, StoreError, Takes};
 
 /// The arguments `given` on the command line, completed by the configuration file; with what was added, in words.
 ///
@@ -22,26 +18,28 @@ pub fn arguments(given: &[OsString]) -> Result<(Arguments, Option<String>), CliE
         Err(error) if asks_for_help(&error) => return Err(error.into()),
         alone => alone,
     };
-    let Some(path) = place()? else {
+    let Some(file) = ConfigFile::of_user().map_err(unusable)? else {
         return Ok((alone?, None));
     };
-    let shown = path.display().to_string();
-    let refused = |what: String| CliError::Input(format!("{shown}: {what}"));
-    let text = std::fs::read_to_string(&path).map_err(|error| refused(error.to_string()))?;
-    let table: Table = text.parse().map_err(|error: toml::de::Error| refused(error.to_string()))?;
-    let added = added(given, &table).map_err(refused)?;
+    let shown = file.name();
+    let refused = |error: &clap::Error| CliError::Input(format!("{shown}: {}", first_line(error)));
+    let added = added(given, &file)?;
     let told = |added: &Added| {
         Some(format!("{shown}: {}", added.options.join(" "))).filter(|_| !added.options.is_empty())
     };
     match Arguments::try_parse_from(added.beside(given)) {
         Ok(arguments) => Ok((arguments, told(&added))),
-        Err(error) if added.is_at_fault(&error) => Err(refused(first_line(&error))),
+        Err(error) if added.is_at_fault(&error) => Err(refused(&error)),
         Err(error) => {
             let Ok(alone) = alone else { return Err(error.into()) };
-            let usable = added.usable(given, alone).map_err(|error| refused(first_line(&error)))?;
+            let usable = added.usable(given, alone).map_err(|error| refused(&error))?;
             Ok((usable.0, told(&usable.1)))
         }
     }
+}
+
+fn unusable(error: StoreError) -> CliError {
+    CliError::Input(error.to_string())
 }
 
 fn first_line(error: &clap::Error) -> String {
@@ -52,27 +50,6 @@ fn first_line(error: &clap::Error) -> String {
 fn asks_for_help(error: &clap::Error) -> bool {
     let help = ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
     matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) || error.kind() == help
-}
-
-/// The file, if there is one: the one that the variable names, or the one in the user's folder of configurations.
-fn place() -> Result<Option<PathBuf>, CliError> {
-    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
-    if let Some(named) = std::env::var_os(VARIABLE) {
-        let path = PathBuf::from(named);
-        return match path.as_os_str().is_empty() {
-            true => Ok(None),
-            // A pipe is as good as a file.
-            false if path.exists() && !path.is_dir() => Ok(Some(path)),
-            false => Err(CliError::Input(format!("{VARIABLE}: expected a file, found {}", path.display()))),
-        };
-    }
-    let folder = match cfg!(windows) {
-        true => set("APPDATA").map(PathBuf::from),
-        false => set("XDG_CONFIG_HOME")
-            .map(PathBuf::from)
-            .or_else(|| set("HOME").map(|home| PathBuf::from(home).join(".config"))),
-    };
-    Ok(folder.map(|folder| folder.join("unripple").join("config.toml")).filter(|path| path.is_file()))
 }
 
 /// Options that the file adds to a command line, and behind which argument they come.
@@ -130,51 +107,55 @@ impl Added {
 }
 
 /// The options in the file that a command line does not give, nor excludes.
-fn added(given: &[OsString], table: &Table) -> Result<Added, String> {
+fn added(given: &[OsString], file: &ConfigFile) -> Result<Added, CliError> {
+    let refused = |what: String| CliError::Input(format!("{}: {what}", file.name()));
     let mut program = Arguments::command();
     program.build();
     let known = |name: &str| program.find_subcommand(name);
-    for (key, value) in table {
-        if value.is_table() && known(key).is_none() {
-            return Err(format!("expected the name of a command in [{key}]; `unripple --help` lists them"));
-        }
+    if let Some(name) = file.commands().find(|name| known(name).is_none()) {
+        let what = format!("expected the name of a command in [{name}]; `unripple --help` lists them");
+        return Err(refused(what));
     }
     let words: Vec<&str> = given.iter().map(|word| word.to_str().unwrap_or_default()).collect();
     let mut commands = (1..words.len()).filter(|at| words[at - 1] != "--set");
     let Some((behind, command)) = commands.find_map(|at| Some((at, known(words[at])?))) else {
         return Ok(Added { options: Vec::new(), behind: 0 });
     };
-    let own = table.get(command.get_name()).and_then(Value::as_table);
-    let has_surface = command.get_positionals().any(|argument| argument.get_id() == "surface");
-    // What a command's own table says goes before what is said for all; and surfaces are changed where there is one.
-    let general = table.iter().filter(|(key, value)| {
-        !value.is_table() && !own.is_some_and(|own| own.contains_key(*key)) && (has_surface || *key != "set")
-    });
-    let own: Vec<_> = own.into_iter().flatten().map(|(key, value)| (key, value, true)).collect();
-    let find = |key: &str| {
-        let option = command.get_arguments().find(|option| option.get_long() == Some(key));
+    let find = |name: &str| {
+        let option = command.get_arguments().find(|option| option.get_long() == Some(name));
         option.filter(|option| !["help", "version"].contains(&option.get_id().as_str())).ok_or_else(|| {
-            let name = command.get_name();
-            format!("`{name}` has no option --{key}; `unripple {name} --help` lists them")
+            let own = command.get_name();
+            refused(format!("`{own}` has no option --{name}; `unripple {own} --help` lists them"))
         })
     };
     let excludes = |one: &Arg, other: &Arg| {
         command.get_arg_conflicts_with(one).contains(&other)
             || command.get_arg_conflicts_with(other).contains(&one)
     };
+    // Keys of surfaces are set where there is a surface.
+    let has_surface = command.get_positionals().any(|argument| argument.get_id() == "surface");
+    let settings = file.settings(command.get_name());
     let mut options = Vec::new();
-    for (key, value, is_own) in general.map(|(key, value)| (key, value, false)).chain(own.iter().copied()) {
-        let option = find(key)?;
+    for setting in settings.iter().filter(|setting| setting.own || has_surface || setting.option != "set") {
+        let option = find(setting.option)?;
         let given_otherwise = command
             .get_arguments()
             .any(|other| (other == option || excludes(option, other)) && is_given(other, command, given));
         let by_own =
-            |(other, _, _): &(&String, &Value, bool)| find(other).is_ok_and(|other| excludes(option, other));
-        if !given_otherwise && (is_own || !own.iter().any(by_own)) {
-            options.extend(spelled(key, value, option)?);
+            |other: &Setting<'_>| other.own && find(other.option).is_ok_and(|other| excludes(option, other));
+        if !given_otherwise && (setting.own || !settings.iter().any(by_own)) {
+            options.extend(setting.words(takes(option)).map_err(unusable)?);
         }
     }
     Ok(Added { options, behind })
+}
+
+fn takes(option: &Arg) -> Takes {
+    match option.get_action() {
+        ArgAction::SetTrue => Takes::Nothing,
+        ArgAction::Append => Takes::Many,
+        _ => Takes::One,
+    }
 }
 
 /// Whether a command line gives an option, by its long or its short name.
@@ -198,30 +179,6 @@ fn is_given(option: &Arg, command: &Command, given: &[OsString]) -> bool {
     })
 }
 
-/// An entry of the file as words of a command line.
-fn spelled(key: &str, value: &Value, option: &Arg) -> Result<Vec<String>, String> {
-    let is_flag = matches!(option.get_action(), ArgAction::SetTrue);
-    let one = |value: &Value| match value {
-        Value::String(text) => Some(text.clone()),
-        Value::Integer(number) => Some(number.to_string()),
-        Value::Float(number) => Some(number.to_string()),
-        _ => None,
-    };
-    match value {
-        Value::Boolean(on) if is_flag => Ok(on.then(|| format!("--{key}")).into_iter().collect()),
-        _ if is_flag => Err(format!("{key}: expected true or false, found {value}")),
-        Value::Array(values) if matches!(option.get_action(), ArgAction::Append) => {
-            let all: Option<Vec<_>> =
-                values.iter().map(|value| Some(format!("--{key}={}", one(value)?))).collect();
-            all.ok_or_else(|| format!("{key}: expected a list of texts or numbers, found {value}"))
-        }
-        _ => match one(value) {
-            Some(text) => Ok(vec![format!("--{key}={text}")]),
-            None => Err(format!("{key}: expected a text or a number, found {value}")),
-        },
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -230,16 +187,20 @@ mod tests {
         line.split_whitespace().map(OsString::from).collect()
     }
 
+    fn parsed(text: &str) -> ConfigFile {
+        ConfigFile::parse(text, "config.toml").unwrap()
+    }
+
     /// The command line that a file makes of another.
-    fn completed(line: &str, file: &str) -> Result<String, String> {
+    fn completed(line: &str, file: &str) -> Result<String, CliError> {
         let given = words(line);
-        let all = added(&given, &file.parse().unwrap())?.beside(&given);
+        let all = added(&given, &parsed(file))?.beside(&given);
         assert!(Arguments::try_parse_from(&all).is_ok(), "{all:?}");
         Ok(all.join(std::ffi::OsStr::new(" ")).into_string().unwrap())
     }
 
     /// The options of a file that go with a command line which is good by itself.
-    fn usable(line: &str, file: &Table) -> Result<Vec<String>, clap::Error> {
+    fn usable(line: &str, file: &ConfigFile) -> Result<Vec<String>, clap::Error> {
         let given = words(line);
         let alone = Arguments::try_parse_from(&given).unwrap();
         Ok(added(&given, file).unwrap().usable(&given, alone)?.1.options)
@@ -292,7 +253,7 @@ mod tests {
 
     #[test]
     fn options_that_need_others_come_with_them_alone() {
-        let file = "[fit]\ngrid-mm = 5\n[play]\nsnr-db = 40\nunknowns = 1".parse().unwrap();
+        let file = parsed("[fit]\ngrid-mm = 5\n[play]\nsnr-db = 40\nunknowns = 1");
         for (line, wanted) in [
             ("unripple fit rig.zarr", vec![]),
             ("unripple fit rig.zarr -o fitted.zarr", vec!["--grid-mm=5"]),
@@ -302,7 +263,7 @@ mod tests {
             options.sort_unstable_by(|a, b| b.cmp(a));
             assert_eq!(options, wanted, "{line}");
         }
-        let wrong = "[fit]\nstrays = 'many'".parse().unwrap();
+        let wrong = parsed("[fit]\nstrays = 'many'");
         assert!(usable("unripple fit rig.zarr", &wrong).is_err());
     }
 
@@ -322,7 +283,7 @@ mod tests {
             } else {
                 "unripple focus film.toml -o out"
             };
-            let refused = added(&words(line), &file.parse().unwrap()).unwrap_err();
+            let refused = added(&words(line), &parsed(file)).unwrap_err().to_string();
             assert!(refused.contains(wanted), "{refused}");
         }
     }

@@ -38,6 +38,14 @@ pub enum StoreError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Surface(#[from] FileFaults),
+    /// A file is not in TOML.
+    #[error("{file}: {fault}")]
+    Toml {
+        /// Name of the file in the message.
+        file: String,
+        /// Description of the fault, with its line and column.
+        fault: String,
+    },
     /// The content of a file is not as expected.
     #[error("{file}: expected {expected}, found {found}")]
     Content {
@@ -79,6 +87,7 @@ impl StoreError {
             Self::Read { .. }
             | Self::UnknownSurface { .. }
             | Self::Surface(_)
+            | Self::Toml { .. }
             | Self::Content { .. }
             | Self::Reads { .. } => true,
             Self::Write { .. } | Self::Occupied { .. } => false,

@@ -13,6 +13,7 @@
 //! - [`Library`] stores responses, measured or modelled, as a Zarr v3 folder that survives being killed, and exports
 //!   them as WAV and SOFA.
 //! - [`load_plan`] reads the plan of a sweep.
+//! - [`ConfigFile`] is the user's file of options.
 //! - [`load_effects`] reads built-in effects, a file of effects, or one for phones; [`effects_to_toml`] writes one.
 //! - [`OutputDir`] collects what a run writes and puts it in place in one step, replacing only the output of an
 //!   earlier run; [`abandon_all`] removes what is under construction before a program ends early.
@@ -26,6 +27,7 @@
 mod building;
 mod builtin;
 mod cache;
+mod config;
 mod decimal;
 mod degrees;
 mod document;
@@ -53,6 +55,7 @@ mod wide;
 pub use building::remove_left;
 pub use builtin::{BUILTINS, Builtin};
 pub use cache::{DiskCache, Usage};
+pub use config::{ConfigFile, Setting, Takes};
 pub use effects::{
     BuiltinEffects, EFFECTS_SCHEMA, builtin_effect, builtin_effects, effect_files, effects_to_toml,
     import_haptic, load_effects, parse_effects,
