@@ -18,7 +18,6 @@ mod config;
 mod error;
 mod focus;
 mod interrupt;
-mod lines;
 mod options;
 mod output;
 mod play;

@@ -49,6 +49,7 @@ pub mod folder;
 pub mod grid;
 pub mod judge;
 pub mod late;
+mod lines;
 pub mod machine;
 pub mod materials;
 pub mod modes;
