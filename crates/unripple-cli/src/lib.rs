@@ -25,14 +25,15 @@ mod progress;
 mod rerun;
 mod shell;
 mod sweep;
+mod talk;
 mod typed;
 mod view;
 
 use args::{Arguments, Command};
 use common::Common;
 use error::CliError;
-use lines::Talk;
 use std::ffi::OsString;
+use talk::Talk;
 use unripple_paper::reproduce;
 use unripple_tasks::{
     compare, design, devices, doctor, drift, export, field, fit, materials, modes, place, respond,
@@ -72,7 +73,7 @@ fn answer(given: &[OsString]) -> Result<(), CliError> {
     unripple_tasks::record::built_from(COMMIT, SOURCES);
     let (arguments, added) = config::arguments(given)?;
     unripple_tasks::machine::asked().map_err(unripple_tasks::TaskError::Input)?;
-    lines::settle(match (arguments.verbose, arguments.quiet) {
+    talk::settle(match (arguments.verbose, arguments.quiet) {
         (true, _) => Talk::Verbose,
         (_, true) => Talk::Quiet,
         _ => Talk::Usual,

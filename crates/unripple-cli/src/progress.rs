@@ -1,13 +1,13 @@
 //! Progress of tasks: a bar on a terminal, lines elsewhere.
 
-use crate::lines::{Lines, Talk, talk};
 use crate::options;
+use crate::talk::{self, Talk};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
 use unripple::core::{Cache, Observer};
-use unripple_tasks::{Progress, part_of};
+use unripple_tasks::{Lines, Progress, part_of};
 
 /// Steps of a bar, more than a terminal has columns.
 const STEPS: u64 = 1000;
@@ -78,7 +78,7 @@ impl Terminal {
 
     /// Progress that prints nothing between the messages of a task.
     fn quiet_between() -> Self {
-        let state = State { lines: Lines::wanted(), stage: String::new(), measured: false };
+        let state = State { lines: talk::lines(), stage: String::new(), measured: false };
         let shown = Arc::new(Shown { bar: Bar::default(), state: Mutex::new(state) });
         Self { shown, wished: None }
     }
@@ -123,7 +123,7 @@ impl Shown {
     /// Shows a spinner with a text in place of what was shown.
     fn spin(&self, what: String) {
         self.clear();
-        if talk() == Talk::Quiet {
+        if talk::talk() == Talk::Quiet {
             return;
         }
         let bar = ProgressBar::new_spinner().with_message(what);

@@ -78,6 +78,7 @@ mod window;
 pub use apart::{Lane, apart};
 pub use device::{DeviceAsk, DeviceKind};
 pub use error::TaskError;
+pub use lines::Lines;
 pub use names::{interpolation, method};
 pub use numbers::above_zero;
 pub use position::{Place, point};

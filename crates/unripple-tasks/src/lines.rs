@@ -1,35 +1,7 @@
-//! Progress of tasks as lines on standard error.
+//! Progress of tasks as lines, for logs and wherever no bar can be drawn.
 
-use std::io::{IsTerminal, stderr};
-use std::sync::OnceLock;
+use crate::part_of;
 use std::time::{Duration, Instant};
-use unripple_tasks::part_of;
-
-/// Amount of progress output while a task runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Talk {
-    /// Only warnings are printed.
-    Quiet,
-    /// A bar on a terminal; elsewhere lines on stages that take long.
-    #[default]
-    Usual,
-    /// Each stage is printed as a line, with the time since the beginning.
-    Verbose,
-}
-
-/// Set once for the whole program, since progress is reported from everywhere.
-static TALK: OnceLock<Talk> = OnceLock::new();
-
-/// Sets the amount of progress output; to be called once, before any task runs.
-pub fn settle(talk: Talk) {
-    // It is called once.
-    let _ = TALK.set(talk);
-}
-
-/// Amount of progress output that was set.
-pub fn talk() -> Talk {
-    TALK.get().copied().unwrap_or_default()
-}
 
 /// Time after which a task's stages are reported if there is no terminal: shorter tasks end before a line is read.
 const LONG: Duration = Duration::from_secs(2);
@@ -42,7 +14,18 @@ const BETWEEN: [Duration; 2] = [Duration::from_secs(3), Duration::from_secs(20)]
 /// half as many.
 const RARER: f64 = 0.05;
 
-/// Progress of a task that is reported in lines. Every method returns the line that the caller should print, if there is one.
+/// Progress of a task that is printed line by line. Where it ends up is the caller's: every method returns the line to be printed, if there is one.
+///
+/// ```
+/// use std::time::{Duration, Instant};
+/// use unripple_tasks::Lines;
+///
+/// let began = Instant::now();
+/// let mut lines = Lines::new(began, false);
+/// assert_eq!(lines.stage("responses", began), None);
+/// let due = lines.beat(began + Duration::from_secs(3));
+/// assert_eq!(due.as_deref(), Some("responses … for 3 s"));
+/// ```
 #[derive(Debug)]
 pub struct Lines {
     began: Instant,
@@ -60,16 +43,11 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// Progress in lines if standard error is not a terminal, or with `--verbose`; otherwise `None`.
-    pub fn wanted() -> Option<Self> {
-        let all = talk() == Talk::Verbose;
-        let wanted = all || talk() == Talk::Usual && !stderr().is_terminal();
-        wanted.then(|| Self::from(Instant::now(), all))
-    }
-
-    fn from(now: Instant, all: bool) -> Self {
+    /// Lines of a task that began at the time `began`: on stages that take long, or, if `all` is set, on every stage and part, with the time
+    /// since the beginning.
+    pub fn new(began: Instant, all: bool) -> Self {
         let (stage, part) = (String::new(), String::new());
-        Self { began: now, told: now, stage, part, since: now, share: None, named: false, all }
+        Self { began, told: began, stage, part, since: began, share: None, named: false, all }
     }
 
     /// Records that a stage begins, at the time `now`.
@@ -149,7 +127,7 @@ mod tests {
     impl Told {
         fn new(all: bool) -> Self {
             let began = Instant::now();
-            Self { lines: Lines::from(began, all), began, all: Vec::new() }
+            Self { lines: Lines::new(began, all), began, all: Vec::new() }
         }
 
         fn at(&mut self, seconds: f64, tell: impl FnOnce(&mut Lines, Instant) -> Option<String>) {
