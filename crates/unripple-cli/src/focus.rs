@@ -81,8 +81,8 @@ fn ask(common: &Common, options: &FocusOptions) -> Result<focus::Ask, CliError> 
         on: options.on.as_ref().map(Into::into),
         judge_hz: options.judge_hz,
         output: Some(options.output.clone()),
-        no_figures: options.no_figures,
-        columns: options.columns,
+        no_figures: options.figures.no_figures,
+        columns: options.figures.columns,
     })
 }
 
@@ -95,8 +95,8 @@ fn waveform_ask(common: &Common, options: &FocusOptions) -> Result<waveform::Ask
         on: options.on.as_ref().map(Into::into),
         judge_hz: options.judge_hz,
         output: Some(options.output.clone()),
-        no_figures: options.no_figures,
-        columns: options.columns,
+        no_figures: options.figures.no_figures,
+        columns: options.figures.columns,
     })
 }
 
@@ -114,7 +114,7 @@ fn stroke_ask(common: &Common, options: &FocusOptions, path: &str) -> Result<str
         on: options.on.as_ref().map(Into::into),
         judge_hz: options.judge_hz,
         output: Some(options.output.clone()),
-        no_figures: options.no_figures,
-        columns: options.columns,
+        no_figures: options.figures.no_figures,
+        columns: options.figures.columns,
     })
 }

@@ -1,6 +1,6 @@
 //! Options of `unripple field`.
 
-use super::{BetweenName, examples, heading};
+use super::{BetweenName, FigureOptions, examples, heading};
 use crate::common::Common;
 use crate::error::CliError;
 use crate::typed::{of, places, seconds};
@@ -36,12 +36,8 @@ pub struct FieldOptions {
     /// sample rate.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
-    /// Write no pictures.
-    #[arg(long, help_heading = heading::RESULTS)]
-    pub no_figures: bool,
-    /// Width of the pictures, in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default it depends on the picture.
-    #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
-    pub columns: Option<usize>,
+    #[command(flatten)]
+    pub figures: FigureOptions,
     /// Folder for the report, snapshot, map of peaks and animation; without it only the report is printed.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
@@ -68,8 +64,8 @@ impl FieldOptions {
             period_s: seconds(self.period_ms, "--period-ms")?,
             judge_hz: self.judge_hz,
             output: self.output.clone(),
-            no_figures: self.no_figures,
-            columns: self.columns,
+            no_figures: self.figures.no_figures,
+            columns: self.figures.columns,
             movie_s: of("--movie-ms", self.movie_ms.as_deref().map(text_forms::interval).transpose())?,
             frames: self.frames,
             between: self.between.into(),

@@ -1,6 +1,6 @@
 //! Options of `unripple focus`, and of targets.
 
-use super::{BetweenName, LossName, MethodName, examples, heading};
+use super::{BetweenName, FigureOptions, LossName, MethodName, examples, heading};
 use crate::error::CliError;
 use crate::typed;
 use clap::Args;
@@ -132,12 +132,8 @@ pub struct FocusOptions {
     /// times), at most 0.45 of the sample rate.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
-    /// Write no pictures.
-    #[arg(long, help_heading = heading::RESULTS)]
-    pub no_figures: bool,
-    /// Width of the pictures, in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default it depends on the picture.
-    #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
-    pub columns: Option<usize>,
+    #[command(flatten)]
+    pub figures: FigureOptions,
     /// Folder for drive.wav, report.json, report.md and pictures. An existing folder is replaced only if it holds nothing but
     /// the unchanged files of an earlier run.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]

@@ -1,7 +1,7 @@
 //! Options of `unripple place`.
 
 use super::names::{MethodName, ObjectiveName};
-use super::{examples, heading};
+use super::{FigureOptions, examples, heading};
 use crate::common::Common;
 use crate::error::CliError;
 use crate::typed::{each, of, places, seconds};
@@ -90,13 +90,9 @@ pub struct PlaceOptions {
     /// ones. Repeatable.
     #[arg(long, value_enum, help_heading = heading::METHOD)]
     pub method: Vec<MethodName>,
-    /// Write no pictures.
-    #[arg(long, help_heading = heading::RESULTS)]
-    pub no_figures: bool,
-    /// Width of the pictures, in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default it depends on the picture.
-    #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
-    pub columns: Option<usize>,
-    /// Folder for the surface file with the placed actuators, the report and pictures; without it only the report is printed.
+    #[command(flatten)]
+    pub figures: FigureOptions,
+    /// Folder for the surface with the actuators in their places, report and pictures; without it only the report is printed.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
 }
@@ -131,8 +127,8 @@ impl PlaceOptions {
             up_to: self.up_to,
             methods: self.method.iter().copied().map(Into::into).collect(),
             output: self.output.clone(),
-            no_figures: self.no_figures,
-            columns: self.columns,
+            no_figures: self.figures.no_figures,
+            columns: self.figures.columns,
         })
     }
 }
