@@ -52,7 +52,7 @@ impl std::fmt::Display for CliError {
 }
 
 impl CliError {
-    /// Error of failed work, from its message.
+    /// Error of a computation or an output that failed, from its message.
     pub fn work(error: impl std::fmt::Display) -> Self {
         Self::Work(error.to_string())
     }

@@ -12,6 +12,7 @@
 //! name, its file or its text, and [`source`] opens it, or a library of responses. [`Progress`] connects a running task
 //! with its caller, [`Report`] is what all reports have in common, a [`Record`] says how a report was made, and
 //! [`folder`] puts results in their place. [`commands`] has all tasks by their names. [`TaskError`] is the error of all tasks.
+//! [`text_forms`] reads targets, waveforms and the like from texts, as people type them.
 //!
 //! ```
 //! use unripple_tasks::{Report, Silent, modes};

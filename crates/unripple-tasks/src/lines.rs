@@ -14,7 +14,7 @@ const BETWEEN: [Duration; 2] = [Duration::from_secs(3), Duration::from_secs(20)]
 /// half as many.
 const RARER: f64 = 0.05;
 
-/// Progress of a task that is printed line by line. Where it ends up is the caller's: every method returns the line to be printed, if there is one.
+/// Progress of a task that is reported in lines. Every method returns the line that the caller should print, if there is one.
 ///
 /// ```
 /// use std::time::{Duration, Instant};
@@ -63,7 +63,7 @@ impl Lines {
         }
     }
 
-    /// Records that a part of the stage begins. Since many parts take no time, it gives a line only with `--verbose`, or
+    /// Records that a part of the stage begins. Since many parts take no time, it gives a line only if all parts are reported, or
     /// when a line is due.
     pub fn part(&mut self, what: &str, now: Instant) -> Option<String> {
         what.clone_into(&mut self.part);

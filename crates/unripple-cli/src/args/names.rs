@@ -43,7 +43,7 @@ names! {
         Tape,
     }
 
-    /// What actuators are placed for.
+    /// Objectives of a search for places.
     #[derive(Default)]
     ObjectiveName => ObjectiveAsk {
         /// The mean of the contrasts.

@@ -92,7 +92,7 @@ pub struct PlaceOptions {
     pub method: Vec<MethodName>,
     #[command(flatten)]
     pub figures: FigureOptions,
-    /// Folder for the surface with the actuators in their places, report and pictures; without it only the report is printed.
+    /// Folder for the surface file with the placed actuators, the report and pictures; without it only the report is printed.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
 }

@@ -160,6 +160,35 @@ fn targets_must_lie_on_the_surface() {
 }
 
 #[test]
+fn what_is_typed_in_another_form_is_refused_by_its_option() {
+    let scratch = Scratch::new("forms");
+    let out = scratch.join("out");
+    for (command, option, typed, said) in [
+        ("focus", "--at", "62", "--at 62: expected X,Y[,GAIN[,HZ]] in mm and Hz, found 1 numbers"),
+        ("focus", "--shape", "triangle:1,2", "--shape triangle: 1,2: expected X,Y and a size in mm"),
+        ("focus", "--shape", "circle:1,2,-3", "--shape circle:1,2,-3: size: expected a number above 0 mm"),
+        ("focus", "--waveform", "1,a,click:2", "--waveform 1,a: expected X,Y in mm, found `a`"),
+        ("focus", "--waveform", "1,2,sine:250", "--waveform 1,2,sine: 250: expected HZ,MS[,UM]"),
+        (
+            "focus",
+            "--waveform",
+            "1,2,click:2,-1",
+            "--waveform: level: expected a number above 0 µm, found -1",
+        ),
+        ("calibrate", "--wire", "a1=", "--wire a1=: expected NAME=CHANNEL, found `a1=`"),
+        ("calibrate", "--input-scale", "a1=x", "--input-scale a1=x: expected a number other than 0"),
+        ("place", "--rim-mm", "4", "--rim-mm 4: expected LEAST,MOST in mm, found 1 numbers"),
+        ("place", "--at", "1,2,3,4", "--at 1,2,3,4: expected X,Y[,WEIGHT] in mm, found 4 numbers"),
+    ] {
+        let errors = refused(&[command, "hudin-2012", option, typed, "-o", &out], 2);
+        assert!(errors.contains(said), "{said:?} in {errors}");
+    }
+    let movie = refused(&["field", "hudin-2012", "--drive", "drive.wav", "--movie-ms", "30,0"], 2);
+    assert!(movie.contains("--movie-ms 30,0: expected 0 <= FROM < TO, found otherwise"), "{movie}");
+    assert!(scratch.names().is_empty());
+}
+
+#[test]
 fn numbers_without_meaning_are_usage_errors() {
     let scratch = Scratch::new("numbers");
     let out = scratch.join("out");
