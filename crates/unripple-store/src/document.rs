@@ -16,8 +16,19 @@ pub(crate) fn parse<T>(
     keys: &[&str],
     read: impl FnOnce(&Section, Option<String>, &mut Faults) -> Option<T>,
 ) -> Result<T, FileFaults> {
-    if text.len() > LARGEST_TEXT {
-        return Err(too_large(file));
+    parse_up_to(LARGEST_TEXT, text, file, keys, read)
+}
+
+/// As [`parse`], for a text of at most `most` bytes.
+pub(crate) fn parse_up_to<T>(
+    most: usize,
+    text: &str,
+    file: &str,
+    keys: &[&str],
+    read: impl FnOnce(&Section, Option<String>, &mut Faults) -> Option<T>,
+) -> Result<T, FileFaults> {
+    if text.len() > most {
+        return Err(longer_than(most, file));
     }
     let mut faults = Faults::new(text);
     let made = match DeTable::parse(text) {
@@ -69,9 +80,14 @@ fn name(root: &Section, file: &str, faults: &mut Faults) -> Option<String> {
     }
 }
 
-/// The fault of a file past the size limit.
+/// The fault of a file past the usual size limit.
 pub(crate) fn too_large(file: &str) -> FileFaults {
-    whole(file, "", 0, "more than that", &format!("a file of at most {LARGEST_TEXT} bytes"))
+    longer_than(LARGEST_TEXT, file)
+}
+
+/// The fault of a file of more than `most` bytes.
+fn longer_than(most: usize, file: &str) -> FileFaults {
+    whole(file, "", 0, "more than that", &format!("a file of at most {most} bytes"))
 }
 
 /// One fault of a whole file, at a byte of its text.

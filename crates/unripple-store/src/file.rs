@@ -12,23 +12,33 @@ pub const LARGEST_TEXT: usize = 1 << 20;
 
 /// Bytes of a file, at most [`LARGEST_TEXT`] and one more: a caller that gets more than the limit refuses it.
 pub(crate) fn read_start(path: &Path) -> Result<Vec<u8>, StoreError> {
+    start(path, LARGEST_TEXT)
+}
+
+/// Bytes of a file, at most `most` and one more.
+fn start(path: &Path, most: usize) -> Result<Vec<u8>, StoreError> {
     let mut bytes = Vec::new();
     File::open(path)
-        .and_then(|file| file.take(LARGEST_TEXT as u64 + 1).read_to_end(&mut bytes))
+        .and_then(|file| file.take(most as u64 + 1).read_to_end(&mut bytes))
         .map_err(StoreError::read(path))?;
     Ok(bytes)
 }
 
 /// The text of a regular file of at most [`LARGEST_TEXT`] bytes.
 pub(crate) fn read_text(path: &Path) -> Result<String, StoreError> {
+    read_text_up_to(path, LARGEST_TEXT)
+}
+
+/// The text of a regular file of at most `most` bytes.
+pub(crate) fn read_text_up_to(path: &Path, most: usize) -> Result<String, StoreError> {
     let name = path.display().to_string();
     let metadata = fs::metadata(path).map_err(StoreError::read(path))?;
     if !metadata.is_file() {
         return Err(StoreError::content(&name, "a file", "something else"));
     }
-    let bytes = read_start(path)?;
-    if bytes.len() > LARGEST_TEXT {
-        return Err(too_large(&name, metadata.len()));
+    let bytes = start(path, most)?;
+    if bytes.len() > most {
+        return Err(longer_than(most, &name, metadata.len()));
     }
     String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
@@ -37,7 +47,11 @@ pub(crate) fn read_text(path: &Path) -> Result<String, StoreError> {
 }
 
 pub(crate) fn too_large(name: &str, bytes: u64) -> StoreError {
-    StoreError::content(name, format!("at most {LARGEST_TEXT} bytes"), format!("{bytes}"))
+    longer_than(LARGEST_TEXT, name, bytes)
+}
+
+fn longer_than(most: usize, name: &str, bytes: u64) -> StoreError {
+    StoreError::content(name, format!("at most {most} bytes"), format!("{bytes}"))
 }
 
 /// Writes a file completely or not at all: first beside its destination, then renamed into place. If the path is a

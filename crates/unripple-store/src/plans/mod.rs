@@ -13,7 +13,7 @@ pub use varied::Varied;
 use crate::StoreError;
 use crate::document;
 use crate::fault::FileFaults;
-use crate::file::read_text;
+use crate::file::read_text_up_to;
 use crate::surface::reader::{Entry, Faults, Section};
 use serde::Serialize;
 use serde_json::Value;
@@ -32,6 +32,10 @@ const LARGEST_SHARD: usize = 100_000;
 
 /// Most figures that a plan may name; without names all of a report are kept.
 const MOST_FIGURES: usize = 1000;
+
+/// Largest text of a plan, in bytes: 32 MiB, a list of 100 000 designs with ten values each. A text takes some ten times its size in memory
+/// while it is read, which every process of a sweep does.
+const LARGEST_PLAN: usize = 1 << 25;
 
 /// A task that plans may name, with the fields of its request that they may set.
 pub type PlanTask = (&'static str, Vec<String>);
@@ -82,7 +86,9 @@ pub struct PlanFile {
 /// # Ok::<(), unripple_store::FileFaults>(())
 /// ```
 pub fn parse_plan(text: &str, file: &str, tasks: &[PlanTask]) -> Result<PlanFile, FileFaults> {
-    document::parse(text, file, &KEYS, |root, name, faults| read(root, name, tasks, faults))
+    document::parse_up_to(LARGEST_PLAN, text, file, &KEYS, |root, name, faults| {
+        read(root, name, tasks, faults)
+    })
 }
 
 /// Reads a plan from its file; see [`parse_plan`].
@@ -91,12 +97,12 @@ pub fn parse_plan(text: &str, file: &str, tasks: &[PlanTask]) -> Result<PlanFile
 /// [`StoreError::Read`] if the file cannot be read; [`StoreError::Surface`] with all faults of its text.
 pub fn load_plan(path: impl AsRef<Path>, tasks: &[PlanTask]) -> Result<PlanFile, StoreError> {
     let path = path.as_ref();
-    Ok(parse_plan(&read_text(path)?, &path.display().to_string(), tasks)?)
+    Ok(parse_plan(&read_text_up_to(path, LARGEST_PLAN)?, &path.display().to_string(), tasks)?)
 }
 
 /// The surface that the plan in a file names, whatever else the file says; `None` where that cannot be told.
 pub fn plan_surface(path: impl AsRef<Path>) -> Option<String> {
-    let table: toml::Table = read_text(path.as_ref()).ok()?.parse().ok()?;
+    let table: toml::Table = read_text_up_to(path.as_ref(), LARGEST_PLAN).ok()?.parse().ok()?;
     table.get("surface")?.as_str().map(str::to_owned)
 }
 

@@ -12,6 +12,7 @@ mod library_damage;
 mod library_python;
 mod library_record;
 mod library_roundtrip;
+mod plans;
 mod property;
 #[path = "../../../unripple-core/tests/shared/python.rs"]
 mod python;
