@@ -1,6 +1,6 @@
 //! One axis of a plan: what varies along it, and its values.
 
-use super::value::{ANY, MOST_DESIGNS, flag, json};
+use super::value::{ANY, LARGEST_WHOLE, MOST_DESIGNS, flag, json};
 use super::varied::{self, Varied};
 use crate::surface::reader::{Entry, Faults, Section};
 use serde::Serialize;
@@ -8,9 +8,6 @@ use serde_json::Value;
 
 /// Keys of an axis.
 const KEYS: [&str; 8] = ["key", "ask", "values", "from", "to", "steps", "log", "whole"];
-
-/// Largest whole number of an axis: all up to it are numbers of 64 bits with a fraction.
-const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// What varies along an axis, and over which values.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -9,6 +9,9 @@ use toml::de::DeValue;
 /// Largest number of designs of a plan: if each takes a second, they take four months.
 pub const MOST_DESIGNS: usize = 10_000_000;
 
+/// Largest whole number that is taken as one: all up to it are numbers of 64 bits with a fraction.
+pub(super) const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
+
 /// The name among `known` that is nearest to one that is not, in quotes.
 pub(super) fn near(found: &str, known: &[&str]) -> Option<String> {
     nearest(found, known.iter().copied()).map(|name| format!("\"{name}\""))
@@ -25,7 +28,7 @@ pub(super) fn json(entry: &Entry, faults: &mut Faults) -> Option<Value> {
         DeValue::Integer(integer) => {
             i64::from_str_radix(integer.as_str(), integer.radix()).ok().map(Value::from)
         }
-        DeValue::Float(float) => float.as_str().parse().ok().and_then(Number::from_f64).map(Value::Number),
+        DeValue::Float(float) => float.as_str().parse().ok().and_then(number),
         DeValue::Array(_) => {
             let items: Vec<_> = entry.items()?.iter().map(|item| json(item, faults)).collect();
             return items.into_iter().collect::<Option<Vec<_>>>().map(Value::Array);
@@ -42,6 +45,15 @@ pub(super) fn json(entry: &Entry, faults: &mut Faults) -> Option<Value> {
         entry.refuse("a finite number, a text, true or false, or a list or table of these", None, faults);
     }
     found
+}
+
+/// A number as JSON, `None` if it is not finite. A whole one has no fraction, so that `150` and `150.0` are one value: what takes a number
+/// takes either, and what takes a count only the first.
+fn number(value: f64) -> Option<Value> {
+    match value.fract() == 0.0 && value.abs() <= LARGEST_WHOLE {
+        true => Some(Value::from(value as i64)),
+        false => Number::from_f64(value).map(Value::Number),
+    }
 }
 
 /// A value that is true or false; otherwise a fault.

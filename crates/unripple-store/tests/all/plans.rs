@@ -1,6 +1,7 @@
-//! Plans of sweeps: how long they may be.
+//! Plans of sweeps: how long they may be, and which values are one.
 
-use unripple_store::{PlanFile, PlanTask, load_plan, parse_plan};
+use serde_json::json;
+use unripple_store::{AxisValues, Designs, PlanFile, PlanTask, load_plan, parse_plan};
 
 /// The head of a plan.
 const HEAD: &str = "format = 1\ntask = \"modes\"\nsurface = \"hudin-2012\"\n";
@@ -33,4 +34,22 @@ fn a_list_may_have_ten_thousand_designs_and_no_plan_is_without_limit() {
     let long = format!("{HEAD}#{}\n{list}", "x".repeat(1 << 25));
     let refused = parse_plan(&long, "plan.toml", &tasks()).unwrap_err();
     assert_eq!(refused.faults()[0].expected, "a file of at most 33554432 bytes");
+}
+
+#[test]
+fn a_whole_number_is_one_value_however_it_is_written() {
+    let values = |text: &str| {
+        let axis = format!(
+            "ask = {{ top_hz = {text}, points = [{{ at_m = [{text}, 0.5] }}] }}\n[[axis]]\nkey = \"a\"\nvalues = [{text}]\n"
+        );
+        let plan = plan(&axis);
+        let Designs::Grid(axes) = &plan.designs else { panic!("{:?}", plan.designs) };
+        (plan.ask["top_hz"].clone(), plan.ask["points"].clone(), axes[0].values.clone())
+    };
+    let expected = (json!(150), json!([{ "at_m": [150, 0.5] }]), AxisValues::List(vec![json!(150)]));
+    for text in ["150", "150.0", "1.5e2", "0x96", "+150.000"] {
+        assert_eq!(values(text), expected, "{text}");
+    }
+    let others = ["150.5", "1e300", "-0.25"].map(|text| values(text).0);
+    assert_eq!(others, [json!(150.5), json!(1e300), json!(-0.25)]);
 }

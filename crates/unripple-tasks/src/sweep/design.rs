@@ -5,11 +5,14 @@ use super::surface::Ground;
 use super::values;
 use crate::TaskError;
 use crate::record::of_bytes;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Number, Value, json};
 use std::collections::BTreeMap;
 use unripple_store::{PlanFile, Varied};
 
-/// One design of a plan: its values, and a hash of everything that determines its results.
+/// Largest whole number that is written without a fraction: all up to it are numbers of 64 bits with one.
+const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
+
+/// One design of a plan: its values, and a hash of all that its figures follow from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     /// Index of the design, counted from 0.
@@ -90,7 +93,7 @@ fn written(value: &Value) -> String {
     }
 }
 
-/// JSON text that is the same for equal values: keys in order, no spaces.
+/// JSON text that is the same for equal values: keys in order, no spaces, whole numbers without a fraction.
 pub(super) fn canonical(value: &Value) -> String {
     match value {
         Value::Object(map) => {
@@ -101,8 +104,15 @@ pub(super) fn canonical(value: &Value) -> String {
             format!("{{{}}}", items.collect::<Vec<_>>().join(","))
         }
         Value::Array(list) => format!("[{}]", list.iter().map(canonical).collect::<Vec<_>>().join(",")),
+        Value::Number(number) => whole(number).map_or_else(|| number.to_string(), |whole| whole.to_string()),
         other => other.to_string(),
     }
+}
+
+/// A whole number that has a fraction of 0, as those of ranges do; `None` for any other number.
+fn whole(number: &Number) -> Option<i64> {
+    let value = number.as_f64().filter(|value| number.is_f64() && value.fract() == 0.0)?;
+    (value.abs() <= LARGEST_WHOLE).then_some(value as i64)
 }
 
 #[cfg(test)]
@@ -134,5 +144,7 @@ mod tests {
     fn equal_values_have_one_text() {
         let text = canonical(&json!({ "b": [1.5, null], "a": { "d": "x", "c": 2 } }));
         assert_eq!(text, r#"{"a":{"c":2,"d":"x"},"b":[1.5,null]}"#);
+        let numbers = json!([150, 150.0, -3.0, 0.1, 1e300, u64::MAX]);
+        assert_eq!(canonical(&numbers), "[150,150,-3,0.1,1e300,18446744073709551615]");
     }
 }
