@@ -2,11 +2,12 @@
 
 use super::axis::{self, Axis};
 use super::value::{MOST_DESIGNS, json};
-use super::varied::{Varied, unknown};
+use super::varied::{Varied, overlap, twice, unknown};
 use crate::surface::reader::{Entry, Faults, Section};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// Most Sobol points: as many as the generator's sequence has.
 const MOST_POINTS: usize = 1 << 16;
@@ -100,7 +101,7 @@ pub(super) fn read(root: &Section, fields: Option<&[&str]>, faults: &mut Faults)
     }
 }
 
-/// The axes from their tables, each key and field once.
+/// The axes from their tables, no two of which set the same.
 fn axes_of(entry: &Entry, sobol: bool, fields: Option<&[&str]>, faults: &mut Faults) -> Option<Vec<Axis>> {
     let Some(items) = entry.items().filter(|items| (1..=MOST_AXES).contains(&items.len())) else {
         entry.refuse(format!("1 to {MOST_AXES} tables headed [[axis]]"), None, faults);
@@ -109,15 +110,12 @@ fn axes_of(entry: &Entry, sobol: bool, fields: Option<&[&str]>, faults: &mut Fau
     let read: Vec<_> =
         items.iter().map(|item| axis::read(&item.section(faults)?, sobol, fields, faults)).collect();
     let axes = read.into_iter().collect::<Option<Vec<_>>>()?;
-    let is_second = |at: &usize| axes[..*at].iter().any(|axis| axis.varied == axes[*at].varied);
-    match (0..axes.len()).find(is_second) {
-        None => Some(axes),
-        Some(at) => {
-            let found = format!("a second axis of {}", axes[at].varied);
-            faults.add(&items[at].key, items[at].span.clone(), found, "each key and field once", None);
-            None
-        }
-    }
+    let Some([first, second]) = overlap(axes.iter().map(|axis| &axis.varied)) else { return Some(axes) };
+    let section = items[second].section(faults)?;
+    let named = section.get("key").or_else(|| section.get("ask"))?;
+    let (found, expected) = twice(&axes[first].varied, &axes[second].varied);
+    faults.add(&named.key, named.span.clone(), found, expected, None);
+    None
 }
 
 /// The grid of some axes, unless it has too many designs.
@@ -155,9 +153,9 @@ fn designs(entry: &Entry, fields: Option<&[&str]>, faults: &mut Faults) -> Optio
     read.into_iter().collect()
 }
 
-/// One design: values by `surface:KEY` and `ask:FIELD`.
+/// One design: values by `surface:KEY` and `ask:FIELD`, no two of which set the same.
 fn design(section: &Section, fields: Option<&[&str]>, faults: &mut Faults) -> Option<Vec<(Varied, Value)>> {
-    let mut one = |(name, span, entry): (String, std::ops::Range<usize>, Entry)| {
+    let mut one = |(name, span, entry): (String, Range<usize>, Entry)| {
         let (expected, nearest) = match name.split_once(':') {
             Some(("surface", key)) if !key.is_empty() => {
                 return Some((Varied::Surface(key.into()), json(&entry, faults)?));
@@ -171,6 +169,13 @@ fn design(section: &Section, fields: Option<&[&str]>, faults: &mut Faults) -> Op
         faults.add(&entry.key, span, format!("`{name}`"), expected, nearest);
         None
     };
-    let read: Vec<_> = section.entries().into_iter().map(&mut one).collect();
-    read.into_iter().collect()
+    let entries = section.entries();
+    let spans: Vec<Range<usize>> = entries.iter().map(|(_, span, _)| span.clone()).collect();
+    let read: Vec<_> = entries.into_iter().map(&mut one).collect();
+    let read = read.into_iter().collect::<Option<Vec<_>>>()?;
+    let Some([one, other]) = overlap(read.iter().map(|(varied, _)| varied)) else { return Some(read) };
+    let [first, second] = if spans[one].start < spans[other].start { [one, other] } else { [other, one] };
+    let (found, expected) = twice(&read[first].0, &read[second].0);
+    faults.add(&format!("{}.{}", section.key, read[second].0), spans[second].clone(), found, expected, None);
+    None
 }

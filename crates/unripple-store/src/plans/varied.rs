@@ -17,6 +17,36 @@ pub enum Varied {
     Ask(String),
 }
 
+impl Varied {
+    /// The steps of its path: keys, and indices of lists as plain numbers.
+    fn steps(&self) -> Vec<String> {
+        let (kind, path) = match self {
+            Self::Surface(key) => ("surface", key.replace('[', ".").replace(']', "")),
+            Self::Ask(field) => ("ask", field.clone()),
+        };
+        let step = |step: &str| step.parse::<usize>().map_or_else(|_| step.to_owned(), |at| at.to_string());
+        std::iter::once(kind.to_owned()).chain(path.split('.').map(step)).collect()
+    }
+}
+
+/// Indices, in order, of two of some that would set the same value: they are equal, or one is a part of the other.
+pub(super) fn overlap<'v>(all: impl Iterator<Item = &'v Varied>) -> Option<[usize; 2]> {
+    let mut sorted: Vec<_> = all.enumerate().map(|(at, varied)| (varied.steps(), at)).collect();
+    sorted.sort_unstable();
+    // What a path is the beginning of follows it.
+    let pair = sorted.windows(2).find(|pair| pair[1].0.starts_with(&pair[0].0))?;
+    Some([pair[0].1.min(pair[1].1), pair[0].1.max(pair[1].1)])
+}
+
+/// What is wrong with `second`, which sets what `first` does; and what was expected.
+pub(super) fn twice(first: &Varied, second: &Varied) -> (String, &'static str) {
+    let found = match first == second {
+        true => format!("{second} again"),
+        false => format!("{second} beside {first}"),
+    };
+    (found, "each key and field once, and no part of one beside it")
+}
+
 impl fmt::Display for Varied {
     /// As lists of designs and tables name it: `surface:KEY` or `ask:FIELD`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,4 +1,4 @@
-//! Plans of sweeps: how long they may be, and which values are one.
+//! Plans of sweeps: how long they may be, which values are one, and which keys overlap.
 
 use serde_json::json;
 use unripple_store::{AxisValues, Designs, PlanFile, PlanTask, load_plan, parse_plan};
@@ -52,4 +52,52 @@ fn a_whole_number_is_one_value_however_it_is_written() {
     }
     let others = ["150.5", "1e300", "-0.25"].map(|text| values(text).0);
     assert_eq!(others, [json!(150.5), json!(1e300), json!(-0.25)]);
+}
+
+/// An axis over the numbers 1 and 2.
+fn axis(named: &str) -> String {
+    format!("[[axis]]\n{named}\nvalues = [1, 2]\n")
+}
+
+#[test]
+fn keys_that_overlap_are_refused_at_the_later_one() {
+    let key = |path: &str| format!("key = \"{path}\"");
+    let ask = |path: &str| format!("ask = \"{path}\"");
+    let cases = [
+        (key("sheet.tension_n_per_m"), key("sheet.tension_n_per_m"), "surface:sheet.tension_n_per_m again"),
+        (key("sheet"), key("sheet.tension_n_per_m"), "surface:sheet.tension_n_per_m beside surface:sheet"),
+        (
+            key("actuator[0].at_mm[1]"),
+            key("actuator[0]"),
+            "surface:actuator[0] beside surface:actuator[0].at_mm[1]",
+        ),
+        (
+            key("actuator[1].at_mm"),
+            key("actuator[01].at_mm"),
+            "surface:actuator[01].at_mm beside surface:actuator[1].at_mm",
+        ),
+        (ask("points"), ask("points.0.at_m.0"), "ask:points.0.at_m.0 beside ask:points"),
+        (ask("top_hz"), ask("top_hz"), "ask:top_hz again"),
+    ];
+    for (first, second, found) in cases {
+        // One axis between the two, which has nothing to do with them.
+        let text = format!("{HEAD}{}{}{}", axis(&first), axis(&key("sheet_of_another")), axis(&second));
+        let refused = parse_plan(&text, "plan.toml", &tasks()).unwrap_err();
+        let [fault] = refused.faults() else { panic!("{refused:#}") };
+        assert_eq!((fault.found.as_str(), fault.line, fault.column), (found, 11, 7), "{refused:#}");
+    }
+    let apart = ["actuator[1].at_mm", "actuator[10].at_mm", "actuator[1].name", "sheet.a", "sheet.ab"];
+    let apart: String = apart.iter().map(|path| axis(&key(path))).collect();
+    assert_eq!(plan(&format!("{apart}{}", axis(&ask("level.peak_m")))).designs.len(), 64);
+}
+
+#[test]
+fn a_design_sets_nothing_twice() {
+    let text = format!(
+        "{HEAD}[[design]]\n\"ask:top_hz\" = 300\n[[design]]\n\"surface:sheet.thickness_mm\" = 1\n\"surface:sheet\" = {{}}\n"
+    );
+    let refused = parse_plan(&text, "plan.toml", &tasks()).unwrap_err();
+    let [fault] = refused.faults() else { panic!("{refused:#}") };
+    assert_eq!((fault.key.as_str(), fault.line, fault.column), ("design[1].surface:sheet", 8, 1));
+    assert_eq!(fault.found, "surface:sheet beside surface:sheet.thickness_mm");
 }
