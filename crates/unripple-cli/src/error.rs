@@ -32,7 +32,7 @@ impl From<TaskError> for CliError {
                 let expected = options::spoken(&expected);
                 Self::Input(format!("{}: expected {expected}, found {found}", options::option(field)))
             }
-            TaskError::Input(text) => Self::Input(options::spoken(&text)),
+            TaskError::Input(text) | TaskError::Memory(text) => Self::Input(options::spoken(&text)),
             TaskError::Faults(faults) => Self::Faults(faults),
             TaskError::Work(text) => Self::Work(options::spoken(&text)),
             TaskError::Cancelled => Self::Cancelled,

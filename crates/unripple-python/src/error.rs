@@ -15,7 +15,7 @@ pub(crate) fn raised(py: Python<'_>, error: TaskError) -> PyErr {
     let made = match error {
         TaskError::Ask { field, expected, found } => of_ask(py, field, &expected, &found),
         TaskError::Faults(faults) => of_faults(py, &faults),
-        TaskError::Input(message) => of_message(py, "InputError", &message),
+        TaskError::Input(message) | TaskError::Memory(message) => of_message(py, "InputError", &message),
         TaskError::Work(message) => of_message(py, "WorkError", &message),
         TaskError::Cancelled => of_message(py, "Cancelled", &TaskError::Cancelled.to_string()),
     };

@@ -26,6 +26,9 @@ pub enum TaskError {
     /// An input, such as a file, cannot be used.
     #[error("{0}")]
     Input(String),
+    /// The work needs more memory than there is.
+    #[error("{0}")]
+    Memory(String),
     /// A file has faults, each with its line and column.
     #[error("{0:#}")]
     Faults(Box<FileFaults>),
@@ -55,7 +58,7 @@ impl TaskError {
 
     /// Whether the error lies in the input (the request or a file) rather than in the computation.
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, Self::Ask { .. } | Self::Input(_) | Self::Faults(_))
+        matches!(self, Self::Ask { .. } | Self::Input(_) | Self::Memory(_) | Self::Faults(_))
     }
 }
 
@@ -69,7 +72,7 @@ impl From<ActError> for TaskError {
                 };
                 Self::ask(field, expected.to_string(), found)
             }
-            ActError::Physics(error @ PhysicsError::TooLarge { .. }) => Self::Input(machine::told(&error)),
+            ActError::Physics(error @ PhysicsError::TooLarge { .. }) => Self::Memory(machine::told(&error)),
             error if error.is_failed_work() => Self::work(error),
             error => Self::input(error),
         }

@@ -129,6 +129,7 @@ fn each(
 fn first(failed: Vec<(String, TaskError)>) -> TaskError {
     match failed.into_iter().next() {
         Some((label, TaskError::Input(text))) => TaskError::Input(format!("{label}: {text}")),
+        Some((label, TaskError::Memory(text))) => TaskError::Memory(format!("{label}: {text}")),
         Some((label, TaskError::Work(text))) => TaskError::Work(format!("{label}: {text}")),
         Some((_, error)) => error,
         None => TaskError::ask("surface", "at least one surface", "none"),

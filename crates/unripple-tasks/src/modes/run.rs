@@ -14,8 +14,8 @@ const ACCURACY: f64 = 1e-6;
 /// Computes the modes of a surface up to a frequency, for the sheet alone and with its actuators.
 ///
 /// # Errors
-/// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Ask`] if the frequency is not above 0; [`TaskError::Input`] where
-/// modes cannot be had.
+/// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Ask`] if the frequency is not above 0; [`TaskError::Memory`] and
+/// [`TaskError::Input`] where modes cannot be had.
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let surface = ask.surface.load()?;
     let top = above_zero(ask.top_hz.unwrap_or(surface.emission.band[1]), "top_hz", "Hz")?;
@@ -40,5 +40,10 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 }
 
 fn refused(error: PhysicsError) -> TaskError {
-    TaskError::Input(machine::told(&error))
+    let told = machine::told(&error);
+    if matches!(error, PhysicsError::TooLarge { .. }) {
+        TaskError::Memory(told)
+    } else {
+        TaskError::Input(told)
+    }
 }

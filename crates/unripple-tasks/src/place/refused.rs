@@ -8,8 +8,9 @@ use unripple_placement::PlacementError;
 pub(super) fn refused(error: PlacementError) -> TaskError {
     match error {
         PlacementError::Physics(error @ PhysicsError::TooLarge { .. }) => {
-            TaskError::Input(machine::told(&error))
+            TaskError::Memory(machine::told(&error))
         }
+        error @ PlacementError::TooLarge { .. } => TaskError::Memory(error.to_string()),
         PlacementError::Few { expected, found } => TaskError::ask(
             "count, apart_m",
             format!("room for {expected} actuators"),
