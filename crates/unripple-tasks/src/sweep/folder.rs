@@ -96,20 +96,42 @@ impl<'p> Folder<'p> {
         Ok((0..self.plan.shards()).filter(|shard| !done.contains(shard)).collect())
     }
 
-    /// Computes those designs of a shard that have no stored row yet, and stores the rows of the whole shard.
+    /// Computes a shard, and puts its rows in place. A design that memory was lacking for is tried once more after the others.
     ///
     /// # Errors
     /// [`TaskError::Cancelled`]; [`TaskError::Work`] if the rows cannot be written.
     pub fn compute(&self, shard: usize, progress: &mut dyn Progress) -> Result<(), TaskError> {
+        let mut rows = self.computed(shard, progress)?;
+        for row in rows.iter_mut().filter(|row| row.lacks_memory) {
+            *row = Row::settled(self.plan, row.index, progress)?;
+        }
+        self.put(shard, &rows)
+    }
+
+    /// As [`compute`](Self::compute), while other processes may take the memory: a shard with a design that it was lacking for is only kept, row by
+    /// row, so that the design can be tried when they have ended.
+    ///
+    /// # Errors
+    /// Those of [`compute`](Self::compute).
+    pub fn compute_beside_others(&self, shard: usize, progress: &mut dyn Progress) -> Result<(), TaskError> {
+        let rows = self.computed(shard, progress)?;
+        match rows.iter().any(|row| row.lacks_memory) {
+            true => rows.iter().try_for_each(|row| self.put_row(row)),
+            false => self.put(shard, &rows),
+        }
+    }
+
+    /// The rows of a shard, those that are kept already and those computed now.
+    fn computed(&self, shard: usize, progress: &mut dyn Progress) -> Result<Vec<Row>, TaskError> {
         let mut rows = Vec::new();
         for index in self.plan.shard(shard) {
             go_on(progress)?;
-            rows.push(match self.row(index)? {
+            rows.push(match self.settled(index) {
                 Some(row) => row,
                 None => Row::computed(self.plan, index, progress)?,
             });
         }
-        self.put(shard, &rows)
+        Ok(rows)
     }
 
     /// Stores the rows of a shard, which is then done, and removes the rows stored for single designs of it.
@@ -139,14 +161,21 @@ impl<'p> Folder<'p> {
         Ok(write_durably(self.row_file(row.index), |file| writeln!(file, "{line}"))?)
     }
 
-    /// The stored row of a single design; `None` if there is none.
-    ///
-    /// # Errors
-    /// [`TaskError::Input`] if it is not what this program writes.
-    pub fn row(&self, index: usize) -> Result<Option<Row>, TaskError> {
-        let path = self.row_file(index);
-        let Ok(text) = fs::read_to_string(&path) else { return Ok(None) };
-        Ok(rows_of(self.plan, &path, &text, index..index + 1)?.pop())
+    /// The row that is kept of a design; `None` if there is none of this design as it is now, by this version: it is then computed again.
+    fn row(&self, index: usize) -> Option<Row> {
+        let text = fs::read_to_string(self.row_file(index)).ok()?;
+        let row: Row = serde_json::from_str(&text).ok()?;
+        row.is_of(&self.plan.design(index)).then_some(row)
+    }
+
+    /// The row that is kept of a design and will not change, as that of one that memory was lacking for may.
+    pub fn settled(&self, index: usize) -> Option<Row> {
+        self.row(index).filter(|row| !row.lacks_memory)
+    }
+
+    /// Whether all rows of a shard are kept, though some of them may not be settled.
+    pub fn is_kept(&self, shard: usize) -> bool {
+        self.plan.shard(shard).all(|index| self.row(index).is_some())
     }
 
     /// The rows of a shard that is done.

@@ -8,29 +8,28 @@ use std::str::FromStr;
 /// ```
 /// use unripple_tasks::sweep::Piece;
 ///
-/// assert_eq!("every:1:4".parse(), Ok(Piece::Every { first: 1, step: 4 }));
+/// assert_eq!("shards:1,4,9".parse(), Ok(Piece::Shards(vec![1, 4, 9])));
 /// assert_eq!(Piece::Shard(7).to_string(), "shard:7");
-/// assert!("every:1:0".parse::<Piece>().is_err());
+/// assert!("shards:".parse::<Piece>().is_err());
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Piece {
-    /// The shards `first`, `first + step` and so on, those that are missing: `every:FIRST:STEP`.
-    Every {
-        /// The first of the shards, counted from 0.
-        first: usize,
-        /// Distance to the next one, at least 1.
-        step: usize,
-    },
-    /// One shard, counted from 0: `shard:K`.
+    /// Shards, counted from 0, in this order, beside those of other processes: `shards:K,K,…`. A shard with a design that memory is lacking for is
+    /// kept, row by row.
+    Shards(Vec<usize>),
+    /// One shard, counted from 0, while nothing else is computed: `shard:K`.
     Shard(usize),
-    /// One design, counted from 0, kept for the shard that it belongs to: `design:I`.
+    /// One design, counted from 0, kept for the shard that it belongs to, while nothing else is computed: `design:I`.
     Design(usize),
 }
 
 impl fmt::Display for Piece {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Every { first, step } => write!(f, "every:{first}:{step}"),
+            Self::Shards(shards) => {
+                let numbers: Vec<String> = shards.iter().map(usize::to_string).collect();
+                write!(f, "shards:{}", numbers.join(","))
+            }
             Self::Shard(shard) => write!(f, "shard:{shard}"),
             Self::Design(index) => write!(f, "design:{index}"),
         }
@@ -44,13 +43,11 @@ impl FromStr for Piece {
         let words: Vec<&str> = text.split(':').collect();
         let number = |word: &str| word.parse::<usize>().ok();
         let found = match words[..] {
-            ["every", first, step] => number(first)
-                .zip(number(step).filter(|step| *step > 0))
-                .map(|(first, step)| Self::Every { first, step }),
+            ["shards", list] => list.split(',').map(number).collect::<Option<_>>().map(Self::Shards),
             ["shard", shard] => number(shard).map(Self::Shard),
             ["design", index] => number(index).map(Self::Design),
             _ => None,
         };
-        found.ok_or_else(|| format!("expected every:FIRST:STEP, shard:K or design:I, found {text}"))
+        found.ok_or_else(|| format!("expected shards:K,K,…, shard:K or design:I, found {text}"))
     }
 }

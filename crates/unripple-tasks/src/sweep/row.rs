@@ -4,7 +4,7 @@ use super::flat;
 use super::pairs::Pairs;
 use super::{Design, Plan};
 use crate::commands::{Command, Done};
-use crate::{Progress, TaskError};
+use crate::{Progress, TaskError, machine};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::any::Any;
@@ -12,8 +12,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use unripple::core::{Cache, Observed};
 
-/// Results of one design, or the error with which it failed. Rows contain no computing times, so that they
-/// are equal to the last bit on whatever process or machine they are computed.
+/// Version of the program that computes rows.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// What came of one design. Rows hold no times, so that they are equal to the last bit whoever computes them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Index of the design, counted from 0.
@@ -30,6 +32,10 @@ pub struct Row {
     /// Number of long lists and texts of the report that are left out of the row.
     #[serde(default, skip_serializing_if = "is_none")]
     pub left_out: usize,
+    /// Whether memory was lacking while other processes of the sweep ran beside, so that the design is tried once more; of no row of a shard that
+    /// is done.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub lacks_memory: bool,
     /// Why the design failed; `None` if it did not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
@@ -54,11 +60,23 @@ impl Row {
         let done = match found {
             Ok(done) => done,
             Err(TaskError::Cancelled) => return Err(TaskError::Cancelled),
-            Err(error) => return Ok(Self::failed(design, error.to_string())),
+            Err(error) => {
+                let lacks_memory = matches!(error, TaskError::Memory(_));
+                return Ok(Self { lacks_memory, ..Self::failed(design, error.to_string()) });
+            }
         };
         let report: Value = serde_json::from_str(&done.json).map_err(TaskError::work)?;
         let flat = flat::of(&report, &plan.file().figures);
         Ok(Self { figures: flat.figures, left_out: flat.left_out, error: done.failure, ..Self::of(design) })
+    }
+
+    /// As [`computed`](Self::computed), with the memory that there is by now: what is lacking then is an error as any other.
+    ///
+    /// # Errors
+    /// [`TaskError::Cancelled`].
+    pub(super) fn settled(plan: &Plan, index: usize, progress: &mut dyn Progress) -> Result<Self, TaskError> {
+        let row = machine::memory().during(|| Self::computed(plan, index, progress))?;
+        Ok(Self { lacks_memory: false, ..row })
     }
 
     /// The row of a design that failed.
@@ -66,9 +84,14 @@ impl Row {
         Self { error: Some(error), ..Self::of(design) }
     }
 
+    /// Whether it is the row of a design as this version computes it.
+    pub(super) fn is_of(&self, design: &Design) -> bool {
+        self.index == design.index && self.hash == design.hash && self.version == VERSION
+    }
+
     fn of(design: Design) -> Self {
         let Design { index, values, hash, .. } = design;
-        Self { index, hash, version: env!("CARGO_PKG_VERSION").into(), values, ..Self::default() }
+        Self { index, hash, version: VERSION.into(), values, ..Self::default() }
     }
 }
 

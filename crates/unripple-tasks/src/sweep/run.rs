@@ -109,13 +109,17 @@ pub fn compute(ask: &Ask, piece: Piece, progress: &mut dyn Progress) -> Result<(
     go_on(progress)?;
     let plan = Plan::open(&ask.plan)?;
     let folder = Folder::open(&plan, output(ask)?)?;
-    match piece {
-        Piece::Every { first, step } => {
-            (first..plan.shards()).step_by(step.max(1)).try_for_each(|shard| one(&folder, shard, progress))
+    let is_there = |shard: &usize| *shard < plan.shards();
+    match &piece {
+        Piece::Shards(shards) if shards.iter().all(is_there) => {
+            let mut left = shards.iter().filter(|shard| !folder.has(**shard));
+            left.try_for_each(|shard| folder.compute_beside_others(*shard, progress))
         }
-        Piece::Shard(shard) if shard < plan.shards() => one(&folder, shard, progress),
-        Piece::Design(index) if index < plan.len() => folder.put_row(&Row::computed(&plan, index, progress)?),
-        Piece::Shard(_) | Piece::Design(_) => {
+        Piece::Shard(shard) if is_there(shard) => one(&folder, *shard, progress),
+        Piece::Design(index) if *index < plan.len() => {
+            folder.put_row(&Row::settled(&plan, *index, progress)?)
+        }
+        Piece::Shards(_) | Piece::Shard(_) | Piece::Design(_) => {
             let expected = format!("one of {} shards or {} designs", plan.shards(), plan.len());
             Err(TaskError::ask("piece", expected, piece))
         }

@@ -63,7 +63,7 @@ impl Workers<'_> {
     ) -> Result<Vec<Option<String>>, TaskError> {
         let mut group = Group(Vec::new());
         for piece in pieces {
-            group.0.push(self.start(*piece, pieces.len())?);
+            group.0.push(self.start(piece.clone(), pieces.len())?);
         }
         let mut counted = Instant::now();
         let mut statuses: Vec<Option<ExitStatus>> = vec![None; pieces.len()];

@@ -12,23 +12,23 @@ use unripple_tasks::sweep::{Piece, Workers, compute, run_with};
 use unripple_tasks::{Progress, Report, Silent, TaskError, commands};
 
 /// A folder of a test's own, gone afterwards.
-struct Scratch(PathBuf);
+pub(crate) struct Scratch(pub(crate) PathBuf);
 
 impl Scratch {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let folder = super::folder(name);
         fs::create_dir(&folder).unwrap();
         Self(folder)
     }
 
     /// The request for a plan of this text, whose rows go to a folder.
-    fn ask(&self, plan: &str, output: &str) -> Ask {
+    pub(crate) fn ask(&self, plan: &str, output: &str) -> Ask {
         let file = self.0.join("plan.toml");
         fs::write(&file, plan).unwrap();
         Ask { plan: file, output: Some(self.0.join(output)), no_figures: true, ..Ask::default() }
     }
 
-    fn read(&self, file: &str) -> String {
+    pub(crate) fn read(&self, file: &str) -> String {
         fs::read_to_string(self.0.join(file)).unwrap()
     }
 }
@@ -40,7 +40,7 @@ impl Drop for Scratch {
 }
 
 /// A grid of 4 x 2 designs in 3 shards, two of which have a tension that no sheet has.
-const GRID: &str = r#"format = 1
+pub(crate) const GRID: &str = r#"format = 1
 task = "modes"
 surface = "hudin-2012"
 ask = { top_hz = 250 }
@@ -66,7 +66,7 @@ impl Progress for After {
     }
 }
 
-fn rows(folder: &Path, shards: usize) -> Vec<Row> {
+pub(crate) fn rows(folder: &Path, shards: usize) -> Vec<Row> {
     let part = |shard: usize| fs::read_to_string(folder.join(format!("parts/{shard}.jsonl"))).unwrap();
     let all: String = (0..shards).map(part).collect();
     all.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
@@ -266,11 +266,11 @@ fn counting_computes_nothing() {
 
 /// Whether a process of a piece dies at once: all that compute the design 4 do.
 #[cfg(unix)]
-fn dies(piece: Piece) -> bool {
+fn dies(piece: &Piece) -> bool {
     match piece {
-        Piece::Every { first, step } => (first..3).step_by(step).any(|shard| shard == 1),
-        Piece::Shard(shard) => shard == 1,
-        Piece::Design(index) => index == 4,
+        Piece::Shards(shards) => shards.contains(&1),
+        Piece::Shard(shard) => *shard == 1,
+        Piece::Design(index) => *index == 4,
     }
 }
 
@@ -284,7 +284,7 @@ fn a_design_that_ends_its_process_is_a_row() {
     let command = |piece: Piece| {
         let mut command = Command::new("sh");
         command.arg("-c");
-        if dies(piece) {
+        if dies(&piece) {
             command.arg("kill -9 $$");
         } else {
             compute(&ask, piece, &mut Silent).unwrap();
