@@ -11,6 +11,8 @@ mod given;
 mod reach;
 #[path = "every/sweep.rs"]
 mod sweeps;
+#[path = "every/sweep_ended.rs"]
+mod sweeps_ended;
 #[path = "every/sweep_memory.rs"]
 mod sweeps_without_memory;
 #[path = "every/told.rs"]

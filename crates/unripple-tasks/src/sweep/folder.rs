@@ -60,7 +60,22 @@ impl<'p> Folder<'p> {
         let parts = path.join(PARTS);
         fs::create_dir_all(&parts).map_err(failed(&parts))?;
         [path, parts.as_path(), path.join(ROWS).as_path()].into_iter().for_each(remove_left);
-        Ok(Self { plan, path: path.into() })
+        let folder = Self { plan, path: path.into() };
+        folder.forget_kept();
+        Ok(folder)
+    }
+
+    /// Removes kept rows of shards that are done, which a process that was killed did not come to: they would be back if a shard were removed to be
+    /// computed once more.
+    fn forget_kept(&self) {
+        let Ok(entries) = fs::read_dir(self.path.join(ROWS)) else { return };
+        for path in entries.flatten().map(|entry| entry.path()) {
+            let index = path.file_stem().and_then(|stem| stem.to_str()?.parse::<usize>().ok());
+            if index.is_some_and(|index| self.has(index / self.plan.file().shard)) {
+                // What is gone already was removed by the process that did the shard.
+                let _ = fs::remove_file(&path);
+            }
+        }
     }
 
     /// The path of a file in the folder.
