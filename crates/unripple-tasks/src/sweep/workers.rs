@@ -16,6 +16,12 @@ const COUNT: Duration = Duration::from_millis(500);
 /// Time that a process has to end by itself once its standard input has ended, in looks; then it is killed.
 const PATIENCE: usize = 200;
 
+/// Time in which a signal that was sent to a whole group of processes ends this one too, in looks: half a second.
+const GRACE: usize = 50;
+
+/// Signals by which somebody wants a process to end: hang-up, interrupt and termination.
+const WISHES: [i32; 3] = [1, 2, 15];
+
 /// The variable that says on how many threads a process computes.
 const THREADS: &str = "RAYON_NUM_THREADS";
 
@@ -51,7 +57,8 @@ impl Drop for Group {
 }
 
 impl Workers<'_> {
-    /// Runs a process for each piece until all have ended, and calls `count` now and then; returns how each died, if it did.
+    /// Runs a process for each piece until all have ended, and calls `count` now and then; returns how each died, if it did. A process that somebody
+    /// wanted to end has died as any other, unless this one is to end as well.
     ///
     /// # Errors
     /// Those of `count`; [`TaskError::Cancelled`]; [`TaskError::Work`] of a process that cannot be started, or that ends with an error of its own.
@@ -72,6 +79,12 @@ impl Workers<'_> {
                 group.0.iter_mut().zip(&mut statuses).filter(|(_, status)| status.is_none())
             {
                 *status = child.try_wait().map_err(TaskError::work)?;
+                if status.and_then(signal).is_some_and(|signal| WISHES.contains(&signal)) {
+                    (0..GRACE).try_for_each(|_| {
+                        sleep(LOOK);
+                        go_on(progress)
+                    })?;
+                }
             }
             if statuses.iter().all(Option::is_some) {
                 return statuses.into_iter().flatten().map(death).collect();
@@ -101,17 +114,16 @@ impl Workers<'_> {
 /// How a process died; `None` if it did its work.
 ///
 /// # Errors
-/// [`TaskError::Work`] if it ended with an error of its own, or since somebody wanted it to end.
+/// [`TaskError::Work`] if it ended with an error of its own.
 fn death(status: ExitStatus) -> Result<Option<String>, TaskError> {
     match (status.code(), signal(status)) {
         (Some(0), _) => Ok(None),
-        (Some(code @ (1 | 2)), _) => Err(TaskError::Work(format!(
-            "a process of the sweep ended with exit status {code}, for the reason that it printed"
-        ))),
-        // Hang-up, interrupt and termination.
-        (_, Some(signal @ (1 | 2 | 15))) => {
-            let told = format!("a process of the sweep was ended by signal {signal}");
-            Err(TaskError::Work(format!("{told}; the same command continues from there")))
+        (Some(code @ (1 | 2)), _) => {
+            Err(TaskError::Work(format!("a process of the sweep ended with exit status {code}; it said why")))
+        }
+        // As a system does that ends programs before memory runs out.
+        (_, Some(signal)) if WISHES.contains(&signal) => {
+            Ok(Some(format!("signal {signal}, by which somebody wants a program to end")))
         }
         (_, Some(6)) => Ok(Some("signal 6, with which a program ends that runs out of memory".into())),
         (_, Some(9)) => {
