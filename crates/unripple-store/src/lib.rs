@@ -66,7 +66,7 @@ pub use file::{LARGEST_TEXT, check_new_file, new_file, write_durably, write_file
 pub use kept::{check_kept_wav, write_kept_wav};
 pub use library::{BandQuality, Damage, Doubt, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
 pub use listing::MARKER;
-pub use load::{load_surface, load_surface_with, surface_files};
+pub use load::{load_surface, load_surface_with, read_drawing, surface_files};
 pub use names::nearest;
 pub use output::{Committed, OutputDir};
 pub use plans::{

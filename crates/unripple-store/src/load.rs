@@ -48,15 +48,21 @@ pub fn load_surface_with(name_or_path: &str, keys: &[(String, String)]) -> Resul
     let text = decode(name_or_path, &bytes)?;
     let text = set_keys(text, name_or_path, keys)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    Ok(parse_surface_with(&text, name_or_path, &|svg| {
-        let file = folder.join(svg);
-        read_text(&file).map_err(|error| match error {
-            StoreError::Read { reason, .. } if reason.kind() == ErrorKind::NotFound => {
-                StoreError::content(svg, "an SVG file", format!("no file {}", file.display()))
-            }
-            other => other,
-        })
-    })?)
+    Ok(parse_surface_with(&text, name_or_path, &|svg| read_drawing(folder, svg))?)
+}
+
+/// The text of the SVG file that a surface file in `folder` calls `svg`, as [`load_surface`] reads it.
+///
+/// # Errors
+/// [`StoreError::Content`] if there is no such file, or it is no text of at most 1 MiB; [`StoreError::Read`] if it cannot be read.
+pub fn read_drawing(folder: &Path, svg: &str) -> Result<String, StoreError> {
+    let file = folder.join(svg);
+    read_text(&file).map_err(|error| match error {
+        StoreError::Read { reason, .. } if reason.kind() == ErrorKind::NotFound => {
+            StoreError::content(svg, "an SVG file", format!("no file {}", file.display()))
+        }
+        other => other,
+    })
 }
 
 /// The files that [`load_surface_with`] reads for a name: none for a built-in surface, else the surface file and the SVG files that it

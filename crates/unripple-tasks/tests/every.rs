@@ -13,6 +13,8 @@ mod reach;
 mod sweeps;
 #[path = "every/sweep_ended.rs"]
 mod sweeps_ended;
+#[path = "every/sweep_files.rs"]
+mod sweeps_of_files;
 #[path = "every/sweep_memory.rs"]
 mod sweeps_without_memory;
 #[path = "every/told.rs"]

@@ -1,7 +1,7 @@
 //! Runs a task from a request as JSON to a report as JSON.
 
 use crate::record::{Record, Request, asked};
-use crate::{Progress, Report, TaskError, folder};
+use crate::{Progress, Report, SurfaceAsk, TaskError, folder};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -36,6 +36,29 @@ impl Done {
 /// [`TaskError::Work`] of what JSON cannot hold.
 pub fn default_of<A: Request + Default>() -> Result<Value, TaskError> {
     serde_json::to_value(A::default()).map_err(TaskError::work)
+}
+
+/// What is made of each surface and each file that a request names.
+pub(crate) trait Names {
+    /// Names a surface, or any other source of responses, in another way.
+    fn surface(&mut self, surface: &mut SurfaceAsk);
+
+    /// Names another file in another way.
+    fn file(&mut self, path: &mut PathBuf);
+}
+
+/// A request as JSON, with all its fields, and with surfaces and files renamed.
+///
+/// # Errors
+/// Those of [`asked`].
+pub(crate) fn renamed<A: Request>(ask: Value, names: &mut dyn Names) -> Result<Value, TaskError> {
+    let mut ask: A = asked(ask)?;
+    ask.surfaces().into_iter().for_each(|surface| names.surface(surface));
+    ask.inputs(&mut |path| {
+        names.file(path);
+        Ok(())
+    })?;
+    serde_json::to_value(&ask).map_err(TaskError::work)
 }
 
 /// Performs the task `run`, with its request as JSON.

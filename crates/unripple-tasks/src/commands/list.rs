@@ -1,7 +1,7 @@
 //! The list of all tasks.
 
-use super::done::{Done, again, default_of, perform};
-use crate::record::{Record, Request, asked};
+use super::done::{Done, Names, again, default_of, perform, renamed};
+use crate::record::{Record, Request};
 use crate::{Progress, TaskError};
 use crate::{
     calibrate, check, compare, design, devices, doctor, drift, export, field, fit, focus, materials, modes,
@@ -16,8 +16,8 @@ pub(crate) struct Command {
     pub(crate) name: &'static str,
     /// Returns the default request of the command, as JSON.
     pub(crate) default_ask: fn() -> Result<Value, TaskError>,
-    /// Checks that a request has known fields with values of the right kinds.
-    pub(crate) check: fn(Value) -> Result<(), TaskError>,
+    /// Checks that a request has known fields with values of the right kinds, and has the surfaces and files that it names renamed.
+    pub(crate) renamed: fn(Value, &mut dyn Names) -> Result<Value, TaskError>,
     /// Performs the command, from its request as JSON.
     pub(crate) run: fn(Value, &mut dyn Progress) -> Result<Done, TaskError>,
     /// Repeats a recorded run of the command, with its results written to another path.
@@ -30,7 +30,7 @@ macro_rules! commands {
         [$(Command {
             name: $task::Ask::COMMAND,
             default_ask: default_of::<$task::Ask>,
-            check: |ask| asked::<$task::Ask>(ask).map(drop),
+            renamed: renamed::<$task::Ask>,
             run: |ask, progress| perform(ask, $task::run, progress),
             again: |record, output, progress| again(record, output, $task::run, progress),
         }),*]

@@ -7,5 +7,6 @@ mod list;
 
 pub use crate::record::asked;
 pub use by_name::{COMMANDS, default_ask, run, unknown};
+pub(crate) use done::Names;
 pub use done::{Done, again, default_of, perform};
 pub(crate) use list::{Command, TASKS, find};

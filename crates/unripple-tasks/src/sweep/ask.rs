@@ -1,6 +1,6 @@
 //! Options of the task `sweep`.
 
-use super::surface;
+use super::files;
 use crate::TaskError;
 use crate::record::{Request, Visit};
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ impl Request for Ask {
         }
         visit(&mut self.plan)?;
         // They are named in the plan, which stays as it is.
-        surface::reads(&self.plan).iter_mut().try_for_each(visit)
+        files::reads(&self.plan).iter_mut().try_for_each(visit)
     }
 
     fn send_to(&mut self, output: Option<PathBuf>) {

@@ -1,7 +1,6 @@
 //! One design of a plan, and the request that its values make.
 
 use super::pairs::Pairs;
-use super::surface::Ground;
 use super::values;
 use crate::TaskError;
 use crate::record::of_bytes;
@@ -19,37 +18,52 @@ pub struct Design {
     pub index: usize,
     /// Values by the names `surface:KEY` and `ask:FIELD`, in the order of the plan.
     pub values: Pairs,
-    /// SHA-256, in hexadecimal digits, of task, surface, request and values.
+    /// SHA-256, in hexadecimal digits, of task, surface, request, values, and the files that these name.
     pub hash: String,
     own: Vec<(Varied, Value)>,
 }
 
 impl Design {
-    /// The design with an index; `surface` is the hash of the surface as the plan names it.
-    pub(super) fn of(plan: &PlanFile, surface: &str, index: usize) -> Self {
-        let own = values::of(&plan.designs, index);
+    /// The design with an index, from its values; `surface` is the hash of the surface as the plan names it, `files` those of other files by their
+    /// names.
+    pub(super) fn of(
+        plan: &PlanFile,
+        surface: &str,
+        files: Map<String, Value>,
+        index: usize,
+        own: Vec<(Varied, Value)>,
+    ) -> Self {
         let values = values::named(&own);
         let ask: Map<String, Value> = plan.ask.clone().into_iter().collect();
         let named: Map<String, Value> = values.0.iter().cloned().collect();
-        let all = json!({ "task": plan.task, "surface": surface, "ask": ask, "values": named });
+        let mut all = json!({ "task": plan.task, "surface": surface, "ask": ask, "values": named });
+        if !files.is_empty() {
+            all["files"] = files.into();
+        }
         Self { index, values, hash: of_bytes(canonical(&all).as_bytes()), own }
     }
 
-    /// The request of the design, with its surface.
+    /// The request of the design, without its surface.
     ///
     /// # Errors
-    /// [`TaskError::Input`] of a key or a field that the values cannot be put under.
-    pub(super) fn ask(&self, plan: &PlanFile, ground: &Ground) -> Result<Value, TaskError> {
+    /// [`TaskError::Input`] of a field that the values cannot be put under.
+    pub(super) fn fields(&self, plan: &PlanFile) -> Result<Value, TaskError> {
         let mut ask = Value::Object(plan.ask.clone().into_iter().collect());
-        let mut keys = Vec::new();
         for (varied, value) in &self.own {
-            match varied {
-                Varied::Surface(key) => keys.push((key.clone(), written(value))),
-                Varied::Ask(path) => put(&mut ask, path, value.clone())?,
+            if let Varied::Ask(path) = varied {
+                put(&mut ask, path, value.clone())?;
             }
         }
-        ask["surface"] = serde_json::to_value(ground.with(keys)?).map_err(TaskError::work)?;
         Ok(ask)
+    }
+
+    /// Keys of the surface file that the design sets, with their values as the file would write them.
+    pub(super) fn keys(&self) -> Vec<(String, String)> {
+        let key = |(varied, value): &(Varied, Value)| match varied {
+            Varied::Surface(key) => Some((key.clone(), written(value))),
+            Varied::Ask(_) => None,
+        };
+        self.own.iter().filter_map(key).collect()
     }
 }
 

@@ -4,6 +4,7 @@ mod ask;
 mod counted;
 mod design;
 mod figure;
+mod files;
 mod flat;
 mod folder;
 mod pairs;
@@ -16,6 +17,7 @@ mod supervised;
 mod surface;
 mod table;
 mod tally;
+mod tasks;
 mod values;
 mod workers;
 

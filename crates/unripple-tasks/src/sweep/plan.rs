@@ -1,23 +1,20 @@
 //! A plan of a sweep, opened: every design by its index alone.
 
 use super::design::{Design, canonical};
+use super::files::{self, Files};
 use super::flat::is_of_the_clock;
 use super::surface::{Ground, folder};
-use crate::commands::{Command, TASKS, find, unknown};
+use super::tasks::tasks;
+use super::values;
+use crate::commands::{Command, find, unknown};
 use crate::cost::Estimate;
 use crate::record::of_bytes;
 use crate::{SurfaceAsk, TaskError, machine};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::ops::Range;
 use std::path::Path;
 use unripple::act::model_cost;
-use unripple_store::{PlanFile, PlanTask, Varied, load_plan};
-
-/// Tasks of devices, or that look at this machine: their reports are of the moment, and no process may disturb another.
-const OF_DEVICES: [&str; 3] = ["drift", "doctor", "play"];
-
-/// Fields that a plan does not set: the surface has a key of its own, and designs write no files.
-const NOT_SET: [&str; 2] = ["surface", "output"];
+use unripple_store::{PlanFile, Varied, load_plan};
 
 /// A plan with its surface, as a sweep computes it. Designs are found by arithmetic from their index; none is held in memory.
 ///
@@ -53,19 +50,10 @@ pub struct Plan {
     file: PlanFile,
     ground: Ground,
     surface_sha256: String,
+    files: Files,
+    /// SHA-256 of the files that the fields of all designs name.
+    asked: Map<String, Value>,
     hash: String,
-}
-
-/// Tasks that plans may name, with the fields that they may set: tasks of one surface that need neither a device nor a folder.
-fn tasks() -> Vec<PlanTask> {
-    let task = |task: &Command| {
-        let Ok(Value::Object(ask)) = (task.default_ask)() else { return None };
-        let writes = ask.get("output").is_some_and(|output| !output.is_null());
-        let fits = ask.contains_key("surface") && !writes && !OF_DEVICES.contains(&task.name);
-        let fields = ask.keys().filter(|field| !NOT_SET.contains(&field.as_str())).cloned();
-        fits.then(|| (task.name, fields.collect()))
-    };
-    TASKS.iter().filter_map(task).collect()
 }
 
 impl Plan {
@@ -85,11 +73,19 @@ impl Plan {
             )));
         }
         let (ground, surface_sha256) = Ground::of(folder(path), &file.surface)?;
-        let kept = json!({
+        let files = Files::of(folder(path), ground.folder());
+        let asked = files.named(files::asked(&file).iter().map(|(varied, value)| (varied, *value)));
+        let mut named = files.named(files::values(&file.designs).into_iter());
+        named.extend(asked.clone());
+        let mut kept = json!({
             "task": file.task, "surface": surface_sha256, "ask": file.ask, "shard": file.shard, "designs": file.designs,
             "figures": file.figures,
         });
-        let plan = Self { hash: of_bytes(canonical(&kept).as_bytes()), file, ground, surface_sha256 };
+        if !named.is_empty() {
+            kept["files"] = named.into();
+        }
+        let hash = of_bytes(canonical(&kept).as_bytes());
+        let plan = Self { file, ground, surface_sha256, files, asked, hash };
         for varied in plan.file.designs.varied() {
             plan.check(varied).map_err(|found| match found {
                 TaskError::Input(text) => TaskError::Input(format!("{shown}: {varied}: {text}")),
@@ -102,8 +98,8 @@ impl Plan {
 
     /// Checks that what varies is known, in the first design that has it.
     fn check(&self, varied: &Varied) -> Result<(), TaskError> {
-        let name = varied.to_string();
-        let first = (0..self.len()).find(|index| self.design(*index).values.get(&name).is_some());
+        let has = |index: &usize| values::of(&self.file.designs, *index).iter().any(|(own, _)| own == varied);
+        let first = (0..self.len()).find(has);
         let index = first.unwrap_or_default();
         match varied {
             Varied::Ask(_) => self.check_ask(index),
@@ -113,14 +109,25 @@ impl Plan {
 
     /// Checks that the request of a design has fields of the right kinds.
     fn check_ask(&self, index: usize) -> Result<(), TaskError> {
-        (self.task()?.check)(self.ask(&self.design(index))?)
+        self.fields(&self.design(index)).map(drop)
+    }
+
+    /// The request of a design without its surface, with its files named from the current folder.
+    fn fields(&self, design: &Design) -> Result<Value, TaskError> {
+        (self.task()?.renamed)(design.fields(&self.file)?, &mut self.files.clone())
     }
 
     /// Checks that surface files have a key; values that they cannot have are left to the designs.
     fn check_key(&self, key: &str, index: usize) -> Result<(), TaskError> {
-        let surface = self.surface(index)?;
-        // What else a surface may be refused for, as a library whose keys cannot be set, is the task's to say.
-        let Err(TaskError::Faults(faults)) = surface.load() else { return Ok(()) };
+        let faults = match self.surface(index) {
+            Ok(surface) => match surface.load() {
+                Err(TaskError::Faults(faults)) => faults,
+                // What else a surface may be refused for, as a library whose keys cannot be set, is the task's to say.
+                Ok(_) | Err(_) => return Ok(()),
+            },
+            Err(TaskError::Faults(faults)) => faults,
+            Err(other) => return Err(other),
+        };
         let unknown = faults.faults().iter().find(|fault| {
             let own = key
                 .strip_prefix(&fault.key)
@@ -135,8 +142,7 @@ impl Plan {
 
     /// The surface of a design.
     fn surface(&self, index: usize) -> Result<SurfaceAsk, TaskError> {
-        let mut ask = self.ask(&self.design(index))?;
-        serde_json::from_value(ask["surface"].take()).map_err(TaskError::work)
+        self.ground.with(self.design(index).keys())
     }
 
     /// Number of designs.
@@ -162,15 +168,22 @@ impl Plan {
 
     /// The design with an index, counted from 0.
     pub fn design(&self, index: usize) -> Design {
-        Design::of(&self.file, &self.surface_sha256, index)
+        let own = values::of(&self.file.designs, index);
+        let mut files = self.asked.clone();
+        files.extend(self.files.named(own.iter().map(|(varied, value)| (varied, value))));
+        Design::of(&self.file, &self.surface_sha256, files, index, own)
     }
 
     /// The request of a design: what all designs have, its own values, and its surface.
     ///
     /// # Errors
-    /// [`TaskError::Input`] of a key or a field that its values cannot be put under.
+    /// [`TaskError::Input`] of a key or a field that its values cannot be put under, and of fields with values of the wrong kind;
+    /// [`TaskError::Faults`] of a surface with SVG files that has faults.
     pub fn ask(&self, design: &Design) -> Result<Value, TaskError> {
-        design.ask(&self.file, &self.ground)
+        let mut ask = self.fields(design)?;
+        let surface = self.ground.with(design.keys())?;
+        ask["surface"] = serde_json::to_value(surface).map_err(TaskError::work)?;
+        Ok(ask)
     }
 
     /// The task that designs are given to.

@@ -20,7 +20,7 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 pub struct Row {
     /// Index of the design, counted from 0.
     pub index: usize,
-    /// SHA-256, in hexadecimal digits, of task, surface, request and values.
+    /// SHA-256, in hexadecimal digits, of task, surface, request, values, and the files that these name.
     pub hash: String,
     /// Version of the program that computed the row.
     pub version: String,
