@@ -2,6 +2,7 @@
 
 use crate::numbers::{ACCURACY, accuracy};
 use crate::{Progress, Solved, SurfaceAsk, TaskError, between, own};
+use std::cell::RefCell;
 use std::path::PathBuf;
 use unripple::act::Note;
 use unripple::core::{Point, Responses, SampledResponses, Surface};
@@ -111,8 +112,46 @@ pub(crate) fn described(library: &Library) -> Result<Surface, TaskError> {
     })
 }
 
-/// A library by its folder.
+thread_local! {
+    /// The library that was read last by work on this thread, by its path, while [`keeping`] runs that work; `None` while it does not.
+    static KEPT: RefCell<Option<Vec<(String, Source)>>> = const { RefCell::new(None) };
+}
+
+/// Runs `work` and keeps the library that it read last, so that work that opens one library again and again reads it once.
+pub(crate) fn keeping<T>(work: impl FnOnce() -> T) -> T {
+    /// Forgets the library, also after a panic.
+    struct Forget;
+
+    impl Drop for Forget {
+        fn drop(&mut self) {
+            KEPT.set(None);
+        }
+    }
+
+    KEPT.set(Some(Vec::new()));
+    let _forget = Forget;
+    work()
+}
+
+/// A library by its folder, as it was when it was read, if it is kept.
 fn library(name: &str) -> Result<Source, TaskError> {
+    let is_asked = |(path, _): &&(String, Source)| path == name;
+    let known =
+        KEPT.with_borrow(|kept| kept.iter().flatten().find(is_asked).map(|(_, source)| source.clone()));
+    if let Some(source) = known {
+        return Ok(source.with(&Solved::default()));
+    }
+    let source = read(name)?;
+    KEPT.with_borrow_mut(|kept| {
+        if let Some(kept) = kept {
+            *kept = vec![(name.to_owned(), source.clone())];
+        }
+    });
+    Ok(source)
+}
+
+/// A library from its files.
+fn read(name: &str) -> Result<Source, TaskError> {
     let library = Library::open(name)?;
     let surface = described(&library)?;
     let names = |list: Vec<&String>| list.into_iter().cloned().collect::<Vec<_>>().join(", ");

@@ -5,7 +5,7 @@ use super::table::TABLE;
 use super::tally::Tally;
 use super::{Ask, Piece, Plan, Report, Row, Workers, figure, supervised, table};
 use crate::figures::Columns;
-use crate::{Progress, Record, TaskError, figures, go_on};
+use crate::{Progress, Record, TaskError, figures, go_on, source};
 use std::path::Path;
 use unripple::act::Note;
 use unripple_store::write_file;
@@ -75,11 +75,11 @@ pub fn run_with(
     // Before the work, as of every task: files may change meanwhile. Whoever completes the last shard reports on the whole.
     let record = Record::of(&Ask { shard: None, ..ask.clone() })?;
     let folder = Folder::open(&plan, output(ask)?)?;
-    match (ask.shard, workers) {
-        (Some(shard), _) => one(&folder, shard, progress)?,
-        (None, Some(workers)) => supervised::run(workers, &folder, progress)?,
-        (None, None) => all(&folder, progress)?,
-    }
+    source::keeping(|| match (ask.shard, workers) {
+        (Some(shard), _) => one(&folder, shard, progress),
+        (None, Some(workers)) => supervised::run(workers, &folder, progress),
+        (None, None) => all(&folder, progress),
+    })?;
     let missing = folder.missing()?;
     let mut report = match missing.is_empty() {
         true => finished(&folder, (!ask.no_figures).then_some(columns), progress)?,
@@ -110,7 +110,7 @@ pub fn compute(ask: &Ask, piece: Piece, progress: &mut dyn Progress) -> Result<(
     let plan = Plan::open(&ask.plan)?;
     let folder = Folder::open(&plan, output(ask)?)?;
     let is_there = |shard: &usize| *shard < plan.shards();
-    match &piece {
+    source::keeping(|| match &piece {
         Piece::Shards(shards) if shards.iter().all(is_there) => {
             let mut left = shards.iter().filter(|shard| !folder.has(**shard));
             left.try_for_each(|shard| folder.compute_beside_others(*shard, progress))
@@ -121,9 +121,9 @@ pub fn compute(ask: &Ask, piece: Piece, progress: &mut dyn Progress) -> Result<(
         }
         Piece::Shards(_) | Piece::Shard(_) | Piece::Design(_) => {
             let expected = format!("one of {} shards or {} designs", plan.shards(), plan.len());
-            Err(TaskError::ask("piece", expected, piece))
+            Err(TaskError::ask("piece", expected, &piece))
         }
-    }
+    })
 }
 
 /// The folder that rows go to.

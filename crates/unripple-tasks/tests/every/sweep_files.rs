@@ -1,11 +1,13 @@
 //! Files that plans name: where they are looked for, that a change is noticed, and that each is read once.
 
 use super::sweeps::{Scratch, rows};
+use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use unripple_store::{BUILTINS, set_keys};
 use unripple_tasks::sweep::{Plan, run};
-use unripple_tasks::{Record, Silent, SurfaceAsk};
+use unripple_tasks::{Progress, Record, Silent, SurfaceAsk, respond};
 
 /// Text of the paper's film by another name, with a narrow band, whose modes are few, and a tension in N/m.
 fn film(name: &str, tension: f64) -> String {
@@ -134,4 +136,47 @@ fn a_surface_of_several_files_is_read_once() {
     files.iter().for_each(|file| fs::remove_file(file).unwrap());
     assert_eq!([heights(0), heights(1)], first);
     assert!(Plan::open(&ask.plan).is_err());
+}
+
+/// Removes the responses of a library once the first shard is done.
+struct Spoiled<'f> {
+    folder: &'f Path,
+    done: Cell<bool>,
+}
+
+impl Progress for Spoiled<'_> {
+    fn cancelled(&self) -> bool {
+        if !self.done.get() && self.folder.join("out/parts/0.jsonl").exists() {
+            self.done.set(true);
+            for entry in fs::read_dir(self.folder.join("library/responses")).unwrap() {
+                let path = entry.unwrap().path();
+                if path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("c.")) {
+                    fs::remove_file(path).unwrap();
+                }
+            }
+        }
+        false
+    }
+}
+
+#[test]
+fn a_library_is_read_once() {
+    let scratch = Scratch::new("sweep-library");
+    let set = [("drive.band_hz", "[0, 600]"), ("drive.sample_rate_hz", "4800")];
+    let set: BTreeMap<String, String> = set.map(|(key, value)| (key.to_owned(), value.to_owned())).into();
+    let library = respond::Ask {
+        surface: SurfaceAsk::Set { name: "hudin-2012".into(), set },
+        pitch_m: 0.03,
+        length_s: None,
+        output: scratch.0.join("library"),
+    };
+    respond::run(&library, &mut Silent).unwrap();
+    let plan = "format = 1\ntask = \"focus\"\nsurface = \"library\"\nshard = 1\n\
+                figures = [\"/window_s\", \"/judged_on\"]\nask = { points = [{ at_m = [0.06, 0.09] }] }\n\
+                [[axis]]\nask = \"window_s\"\nvalues = [0.01, 0.009]\n";
+    let ask = scratch.ask(plan, "out");
+    let mut spoiled = Spoiled { folder: &scratch.0, done: Cell::new(false) };
+    let report = run(&ask, &mut spoiled).unwrap();
+    assert!(spoiled.done.get());
+    assert_eq!((report.done, report.failed), (2, 0), "{report:?}");
 }
