@@ -173,6 +173,36 @@ def test_a_surface_file_is_sent_to_workers(cluster: Cluster, folder: Path) -> No
     assert (folder / "out/table.csv").read_bytes() == (folder / "serial/table.csv").read_bytes()
 
 
+def test_files_that_a_request_names_are_sent_to_workers(cluster: Cluster, folder: Path) -> None:
+    (folder / "plans").mkdir()
+    narrow = ur.Surface("hudin-2012", band_hz=[0, 600], sample_rate_hz=4800)
+    for name in ("film", "other"):
+        (folder / f"{name}.toml").write_text(narrow.with_(name=name).toml, encoding="utf-8")
+    text = """
+    format = 1
+    task = "compare"
+    surface = "../film.toml"
+    shard = 1
+    figures = ["/surfaces/0/label", "/surfaces/1/label"]
+    ask = { points = [{ at_m = [0.062, 0.09] }], methods = ["concentrate"], no_tradeoffs = true, others = ["../other.toml"] }
+    [[axis]]
+    ask = "window_s"
+    values = [0.01, 0.012]
+    """
+    (folder / "plans/plan.toml").write_text(text)
+    serial = ur.sweep("plans/plan.toml", "serial", no_figures=True)
+    assert serial.failed == 0
+    assert [Path(file.path).name for file in serial.run.files] == ["plan.toml", "film.toml", "other.toml"]
+    cluster.scheduler()
+    cluster.worker()
+    with cluster.client() as client:
+        ur.sweep("plans/plan.toml", "out", client=client, shared=False, no_figures=True)
+        (folder / "plans/away.toml").write_text(text.replace("../other.toml", str(folder / "other.toml")))
+        with pytest.raises(ur.InputError, match="a path from the plan's folder.*other.toml"):
+            ur.sweep("plans/away.toml", "away", client=client, shared=False)
+    assert (folder / "out/table.csv").read_bytes() == (folder / "serial/table.csv").read_bytes()
+
+
 def test_what_is_no_client_is_refused() -> None:
     with pytest.raises(ur.OptionError, match="expected a distributed.Client"):
         ur.sweep("plan.toml", "out", client="tcp://127.0.0.1:8786")  # type: ignore[arg-type]

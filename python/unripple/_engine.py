@@ -150,9 +150,12 @@ class _Sent:
 def _files(plan: str, counted: Report) -> dict[str, bytes]:
     """Return the files that a plan is read from by their paths from its folder, its own first."""
     paths = [file.path for file in counted.run.files]
-    if os.path.isabs(counted.surface) or any(map(os.path.isdir, paths)):
-        expected = "a built-in surface, or files by a path from the plan's folder, which workers are sent"
-        raise InputError(f"{plan}: surface: expected {expected}, found {counted.surface}")
+    text = Path(plan).read_text(encoding="utf-8")
+    # Libraries, and files by the whole of their paths, which would not be where workers put them.
+    away = [path for path in paths[1:] if os.path.isdir(path) or path in text]
+    if away or os.path.isabs(counted.surface):
+        expected = "built-in surfaces, or files by a path from the plan's folder, which workers are sent"
+        raise InputError(f"{plan}: expected {expected}, found {[*away, counted.surface][0]}")
     return {os.path.relpath(path, os.path.dirname(plan)): Path(path).read_bytes() for path in paths}
 
 
