@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import difflib
 import json
+import os
 from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from unripple import _progress
@@ -229,6 +231,37 @@ class Report(Part):
         from unripple import _labels
 
         return _labels.dataframe(self._data if key is None else self._whole(), key, library)
+
+    def to_parquet(self, path: str | os.PathLike[str]) -> None:
+        """Write the table of a sweep as an Apache Parquet file: a row for each design, with the columns of ``table.csv``.
+
+        A column holds whole numbers, numbers, truths or texts, by all of its values; what is unknown is null. The table is read from the
+        folder of the sweep.
+
+        Parameters
+        ----------
+        path
+            The file to write; one that is there is replaced.
+
+        Raises
+        ------
+        ImportError
+            If ``pyarrow`` is not installed.
+        InputError
+            If this is no report of a sweep that has its table.
+
+        Examples
+        --------
+        >>> import unripple as ur
+        >>> try:
+        ...     ur.modes("hudin-2012", max_hz=200).to_parquet("table.parquet")
+        ... except (ImportError, ur.InputError) as error:
+        ...     print("parquet" in str(error))
+        True
+        """
+        from unripple import _table, _values
+
+        _table.parquet(self._whole(), Path(_values.path("path", path)))
 
 
 def _parsed(text: str) -> dict[str, Any]:
