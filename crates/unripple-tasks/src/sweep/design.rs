@@ -24,8 +24,8 @@ pub struct Design {
 }
 
 impl Design {
-    /// The design with an index, from its values; `surface` is the hash of the surface as the plan names it, `files` those of other files by their
-    /// names.
+    /// The design with an index, from its values; `surface` is the hash of the surface as the plan names it, `files` has those of other
+    /// files by their names.
     pub(super) fn of(
         plan: &PlanFile,
         surface: &str,

@@ -37,8 +37,8 @@ impl Files {
         Self { folder: folder.into(), ground: ground.map(Path::to_path_buf), known: Arc::default() }
     }
 
-    /// SHA-256, in hexadecimal digits, of each file that some values name, by `ask:NAME` or `surface:NAME`. Any text that is the path of a file is
-    /// taken for its name.
+    /// SHA-256, in hexadecimal digits, of each file that some values name, by `ask:NAME` or `surface:NAME`. Any text that is the path
+    /// of a file is taken for its name.
     pub fn named<'v>(&self, values: impl Iterator<Item = (&'v Varied, &'v Value)>) -> Map<String, Value> {
         let mut found = Map::new();
         for (varied, value) in values {
@@ -69,7 +69,7 @@ impl Names for Files {
             return;
         }
         *name = self.folder.join(&*name).to_string_lossy().into_owned();
-        let asked = serde_json::to_string(surface).unwrap_or_default();
+        let asked = serde_json::to_string(&*surface).unwrap_or_default();
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         *surface = known.surfaces.entry(asked).or_insert_with(|| read(surface)).clone();
     }

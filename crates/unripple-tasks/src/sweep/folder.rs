@@ -65,8 +65,8 @@ impl<'p> Folder<'p> {
         Ok(folder)
     }
 
-    /// Removes kept rows of shards that are done, which a process that was killed did not come to: they would be back if a shard were removed to be
-    /// computed once more.
+    /// Removes kept rows of shards that are done, which a process that was killed did not come to: they would be back if a shard were
+    /// removed to be computed once more.
     fn forget_kept(&self) {
         let Ok(entries) = fs::read_dir(self.path.join(ROWS)) else { return };
         for path in entries.flatten().map(|entry| entry.path()) {
@@ -123,8 +123,8 @@ impl<'p> Folder<'p> {
         self.put(shard, &rows)
     }
 
-    /// As [`compute`](Self::compute), while other processes may take the memory: a shard with a design that it was lacking for is only kept, row by
-    /// row, so that the design can be tried when they have ended.
+    /// As [`compute`](Self::compute), while other processes may take the memory: a shard with a design that it was lacking for is only
+    /// kept, row by row, so that the design can be tried when they have ended.
     ///
     /// # Errors
     /// Those of [`compute`](Self::compute).

@@ -14,8 +14,8 @@ use std::str::FromStr;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Piece {
-    /// Shards, counted from 0, in this order, beside those of other processes: `shards:K,K,…`. A shard with a design that memory is lacking for is
-    /// kept, row by row.
+    /// Shards, counted from 0, in this order, beside those of other processes: `shards:K,K,…`. A shard with a design that memory is
+    /// lacking for is kept, row by row.
     Shards(Vec<usize>),
     /// One shard, counted from 0, while nothing else is computed: `shard:K`.
     Shard(usize),

@@ -32,8 +32,8 @@ pub struct Row {
     /// Number of long lists and texts of the report that are left out of the row.
     #[serde(default, skip_serializing_if = "is_none")]
     pub left_out: usize,
-    /// Whether memory was lacking while other processes of the sweep ran beside, so that the design is tried once more; of no row of a shard that
-    /// is done.
+    /// Whether memory was lacking while other processes of the sweep ran beside, so that the design is tried once more; of no row of a
+    /// shard that is done.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub lacks_memory: bool,
     /// Why the design failed; `None` if it did not.

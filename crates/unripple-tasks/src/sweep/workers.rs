@@ -57,8 +57,8 @@ impl Drop for Group {
 }
 
 impl Workers<'_> {
-    /// Runs a process for each piece until all have ended, and calls `count` now and then; returns how each died, if it did. A process that somebody
-    /// wanted to end has died as any other, unless this one is to end as well.
+    /// Runs a process for each piece until all have ended, and calls `count` now and then; returns how each died, if it did. A process
+    /// that somebody wanted to end has died as any other, unless this one is to end as well.
     ///
     /// # Errors
     /// Those of `count`; [`TaskError::Cancelled`]; [`TaskError::Work`] of a process that cannot be started, or that ends with an error of its own.
