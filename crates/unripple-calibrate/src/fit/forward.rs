@@ -24,13 +24,17 @@ pub(super) struct Answer {
 }
 
 /// Intermediate results at one frequency.
-struct Point {
-    s: c64,
+pub(super) struct Point {
+    /// The complex frequency, 1/s.
+    pub s: c64,
+    /// Modal velocities of the sheet alone, modes x places.
+    pub free: Mat<c64>,
     /// Modal velocities under loads, modes x places.
-    moved: Mat<c64>,
+    pub moved: Mat<c64>,
     /// (1 + Z Y₀)⁻¹, with Z the impedance of the loads and Y₀ the admittance of the sheet alone.
-    shared: Mat<c64>,
-    admittance: Mat<c64>,
+    pub shared: Mat<c64>,
+    /// The admittance, places x places.
+    pub admittance: Mat<c64>,
 }
 
 /// Admittances at one frequency of candidate places for a point mass: between them and the other places, and of each at itself.
@@ -118,7 +122,7 @@ impl System {
     }
 
     /// Derivatives of the stiffness by each unknown that changes it: a matrix, nominal modes x nominal modes, and a factor.
-    fn stiffnesses<'a>(&'a self, basis: &'a Basis) -> Vec<(MatRef<'a, f64>, f64)> {
+    pub(super) fn stiffnesses<'a>(&'a self, basis: &'a Basis) -> Vec<(MatRef<'a, f64>, f64)> {
         let count = self.sheet.squares.len();
         let mut all = vec![(self.sheet.tension.as_ref(), 1.0), (self.sheet.bending.as_ref(), 1.0)];
         let rest = std::iter::once(&basis.skew).chain(&basis.terms);
@@ -126,28 +130,34 @@ impl System {
         all
     }
 
-    fn point(&self, s: c64) -> Point {
+    /// Velocity of each mode per modal force at a complex frequency (1/s), in s.
+    pub(super) fn mobility(&self, s: c64) -> Vec<c64> {
+        let modes = self.sheet.squares.iter().zip(&self.sheet.sigmas);
+        modes.map(|(square, sigma)| s / (s * s + s * (2.0 * sigma) + *square)).collect()
+    }
+
+    /// Impedance (N·s/m) of the load at a place at a complex frequency (1/s).
+    pub(super) fn impedance(&self, place: usize, s: c64) -> c64 {
+        let added = self.coils[place].as_ref().map_or(c64::new(0.0, 0.0), |coil| coil.added(s));
+        s * self.masses[place] + self.resistances[place] + added
+    }
+
+    /// Intermediate results at a complex frequency (1/s).
+    pub(super) fn point(&self, s: c64) -> Point {
         let (modes, places, loaded) = (self.shapes.nrows(), self.places(), self.layout.loaded());
-        let mobility: Vec<c64> = self
-            .sheet
-            .squares
-            .iter()
-            .zip(&self.sheet.sigmas)
-            .map(|(square, sigma)| s / (s * s + s * (2.0 * sigma) + *square))
-            .collect();
+        let mobility = self.mobility(s);
         let free = Mat::from_fn(modes, places, |m, p| mobility[m] * self.shapes[(m, p)]);
         let mut alone = transposed_real(&self.shapes, &free);
         let rest = self.compliance(s);
         (0..loaded).for_each(|p| alone[(p, p)] += rest);
         let mut system = Mat::<c64>::identity(places, places);
         for p in 0..loaded {
-            let added = self.coils[p].as_ref().map_or(c64::new(0.0, 0.0), |coil| coil.added(s));
-            let impedance = s * self.masses[p] + self.resistances[p] + added;
+            let impedance = self.impedance(p, s);
             (0..places).for_each(|q| system[(p, q)] += impedance * alone[(p, q)]);
         }
         let shared = Lu::new(system.as_ref()).inverse();
         let moved = product(free.as_ref(), shared.as_ref());
-        Point { s, moved, admittance: product(alone.as_ref(), shared.as_ref()), shared }
+        Point { s, moved, admittance: product(alone.as_ref(), shared.as_ref()), shared, free }
     }
 
     /// Derivatives of the admittance by each unknown that changes the stiffness, `[frequency][unknown]`.
@@ -250,6 +260,6 @@ fn transposed_real(a: &Mat<f64>, b: &Mat<c64>) -> Mat<c64> {
 }
 
 /// Matrix product on one thread, since frequencies already run in parallel.
-fn multiply_alone(out: &mut Mat<f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
+pub(super) fn multiply_alone(out: &mut Mat<f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
     multiply(out.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
 }

@@ -224,10 +224,11 @@ fn columns(blocks: &[Block], count: usize) -> Mat<f64> {
 }
 
 /// Orthonormal columns that are projected out of responses between actuators: those of modes far above the band.
-struct Nuisance(Vec<Vec<f64>>);
+pub(super) struct Nuisance(pub Vec<Vec<f64>>);
 
 impl Nuisance {
-    fn new(far: &[Vec<c64>]) -> Self {
+    /// From columns of complex values at all frequencies: real parts, then imaginary ones.
+    pub fn new(far: &[Vec<c64>]) -> Self {
         let mut nuisance = Self(Vec::new());
         for values in far {
             let mut column: Vec<f64> = values.iter().map(|v| v.re).collect();

@@ -38,7 +38,7 @@ impl Default for FitOptions {
 /// Decay rates α, in 1/s, of the window e^{-αt}: `COARSE` while the band grows, `FINE` for the whole band. Half as much makes
 /// spectral lines narrower, so that frequencies weigh more and a start has to be nearer.
 const COARSE: f64 = 60.0;
-const FINE: f64 = 30.0;
+pub(super) const FINE: f64 = 30.0;
 
 /// Top of the first fitted band, relative to the frequency of the first mode. It holds the first ten or so modes of a membrane;
 /// with more a descent may converge to a false minimum, with fewer the data are too few.
@@ -94,25 +94,10 @@ pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Resu
     let band = options.band.unwrap_or([nominal.emission.band[0], 0.97 * nominal.emission.band[1]]);
     let limited = measured.pairs.as_ref().and_then(|pairs| pairs.limited);
     let band = limited.map_or(band, |l| [band[0].max(l.low[1]), band[1].min(l.high[0])]);
-    let top = nominal.emission.band[1].max(band[1]);
-    require(
-        "reach of the modes",
-        (1.05..=4.0).contains(&options.reach),
-        "between 1.05 and 4",
-        options.reach,
-    )?;
-    require("window of the fit in s", options.window > 0.0, "a positive number", options.window)?;
-    require("top of the fitted band in Hz", band[1] > band[0], "above its bottom", band[1])?;
-    let basis = Basis::new(nominal, options.reach * top, options.profile)?;
+    let (basis, top) = prepared(nominal, options, band)?;
     let first =
         basis.squares.iter().find(|square| **square > 0.0).map_or(band[1], |square| square.sqrt() / TAU);
-    let layout = Layout {
-        actuators: nominal.actuators.len(),
-        silent: measured.silent(nominal.actuators.len()),
-        waves: basis.waves.clone(),
-        strays: 0,
-        damping: layout::damping(&Medium::of(&nominal.sheet), top),
-    };
+    let layout = unknowns_of(nominal, &basis, measured.silent(nominal.actuators.len()), top);
     let expected = nominal_values(nominal, &basis, &layout, top);
     let values = expected.clone();
     let mut fit = Fit { nominal, measured, options, basis: &basis, layout, values, expected, top };
@@ -127,6 +112,35 @@ pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Resu
     }
     let (found, spectra, count) = fit.widen(band, FINE, options.reach * top, true)?;
     Fitted::new(&fit.case(&fit.layout, &spectra, count), &found, &fit.expected, (nominal, limited))
+}
+
+/// The nominal modes that a fit of a band (Hz) uses, after a check of its options, and the top (Hz) of the band that the damping law covers.
+pub(super) fn prepared(
+    nominal: &Surface,
+    options: &FitOptions,
+    band: [f64; 2],
+) -> Result<(Basis, f64), CalibrateError> {
+    let top = nominal.emission.band[1].max(band[1]);
+    require(
+        "reach of the modes",
+        (1.05..=4.0).contains(&options.reach),
+        "between 1.05 and 4",
+        options.reach,
+    )?;
+    require("window of the fit in s", options.window > 0.0, "a positive number", options.window)?;
+    require("top of the fitted band in Hz", band[1] > band[0], "above its bottom", band[1])?;
+    Ok((Basis::new(nominal, options.reach * top, options.profile)?, top))
+}
+
+/// The unknowns of a fit, without stray masses; `silent` are the actuators without measured responses.
+pub(super) fn unknowns_of(surface: &Surface, basis: &Basis, silent: Vec<usize>, top: f64) -> Layout {
+    Layout {
+        actuators: surface.actuators.len(),
+        silent,
+        waves: basis.waves.clone(),
+        strays: 0,
+        damping: layout::damping(&Medium::of(&surface.sheet), top),
+    }
 }
 
 /// State of a fit in progress.
@@ -250,7 +264,8 @@ fn with(values: &Values, at: Point, mass: f64) -> Values {
     more
 }
 
-fn nominal_values(surface: &Surface, basis: &Basis, layout: &Layout, top: f64) -> Values {
+/// The values of the unknowns that the surface file says.
+pub(super) fn nominal_values(surface: &Surface, basis: &Basis, layout: &Layout, top: f64) -> Values {
     let medium = Medium::of(&surface.sheet);
     let rate = |hz: f64| match &surface.sheet.decay {
         Decay::Time(time) => 1.0 / time,
