@@ -36,6 +36,17 @@ pub enum PlacementError {
     /// No mode lies in the band.
     #[error("modes in the band: expected at least 1, found 0")]
     Empty,
+    /// No measurement tells of some unknowns, or of some combination of them.
+    #[error(
+        "measurements at all {places} places together: expected to tell of all {unknowns} unknowns and their combinations, found some of \
+         which nothing is known"
+    )]
+    Untold {
+        /// Number of places.
+        places: usize,
+        /// Number of unknowns.
+        unknowns: usize,
+    },
     /// The search needs more memory than is allowed.
     #[error(
         "a search among {places} places on {cases} targets: expected at most {limit_gib:.2} GiB, found {needed_gib:.2} GiB; a larger \

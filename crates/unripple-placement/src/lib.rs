@@ -1,4 +1,4 @@
-//! Where actuators should be, so that time reversal has the most contrast.
+//! Where actuators should be, so that time reversal has the most contrast, and sensors, so that a calibration tells most.
 //!
 //! The contrast of time reversal from a set of actuators is a ratio of two sums over the set, one over its members and one over pairs of
 //! them. Both are computed once for all places where an actuator may be; after that a layout costs a few operations per target. The best
@@ -11,6 +11,9 @@
 //! actuators may be, [`spread`] makes targets. [`Forms`] are the two sums, a [`Search`] finds layouts ([`Found`]), and [`Polish`] moves
 //! their actuators off the grid. [`reached`] gives the contrast of a layout at each target, and an [`Objective`] condenses these
 //! contrasts to one number.
+//!
+//! For calibration, [`Informations`] are what measurements at many places tell of some unknowns. [`Approximate`] is the best possible share
+//! of measurements at each place, with a certificate; a [`Picking`] finds single places ([`Picked`]), whose efficiency it bounds.
 //!
 //! ```
 //! use unripple_physics::design::papers_surface;
@@ -35,25 +38,32 @@
 //! # Ok::<(), unripple_placement::PlacementError>(())
 //! ```
 
+mod approximate;
 mod basis;
 mod chosen;
 mod error;
 mod exhaustive;
 mod forms;
+mod informations;
 mod layout;
 mod mounting;
+mod newton;
 mod objective;
+mod picking;
 mod plant;
 mod polish;
 mod rules;
 mod search;
 mod spread;
 
+pub use approximate::Approximate;
 pub use chosen::Chosen;
 pub use error::PlacementError;
 pub use forms::{Aim, Forms};
+pub use informations::Informations;
 pub use layout::{Reached, figure, reached, reached_each};
 pub use objective::Objective;
+pub use picking::{Picked, Picking};
 pub use plant::Plant;
 pub use polish::Polish;
 pub use rules::Rules;

@@ -5,4 +5,5 @@ mod bench;
 mod contrast;
 mod exhaustive;
 mod mounting;
+mod picking;
 mod search;
