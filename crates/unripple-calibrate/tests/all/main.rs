@@ -13,6 +13,7 @@ mod drift_oracle;
 mod drift_property;
 mod drift_truth;
 mod fit_beginnings;
+mod fit_information;
 mod fit_oracle;
 mod fit_reach;
 #[path = "../fit_truth/mod.rs"]
