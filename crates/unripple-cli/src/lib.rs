@@ -36,7 +36,7 @@ use std::ffi::OsString;
 use talk::Talk;
 use unripple_paper::reproduce;
 use unripple_tasks::{
-    compare, design, devices, doctor, drift, export, field, fit, materials, modes, place, respond,
+    compare, design, devices, doctor, drift, export, field, fit, materials, modes, place, respond, sensors,
 };
 
 /// The commit that the program was built from; empty where that is not known.
@@ -96,6 +96,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Design(options) => output::perform(json, &options.ask(common), design::run),
         Command::Modes(options) => output::perform(json, &options.ask(common), modes::run),
         Command::Place(options) => output::perform(json, &options.ask(common)?, place::run),
+        Command::Sensors(options) => output::perform(json, &options.ask(common)?, sensors::run),
         Command::Respond(options) => output::perform(json, &options.ask(common)?, respond::run),
         Command::Focus(options) => focus::run(options, common),
         Command::Compare(options) => output::perform(json, &options.ask(common)?, compare::run),

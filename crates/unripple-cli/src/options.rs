@@ -28,6 +28,7 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("level_m_s", "--level-mm-s"),
     ("within_m", "--within"),
     ("keep_out_m", "--keep-out"),
+    ("keep_m", "--keep"),
     ("places_m", "--place"),
     ("weights", "--at"),
     ("targets_within_m", "--screen"),

@@ -25,6 +25,7 @@
 //! ```
 
 mod apart;
+mod areas;
 pub mod between;
 pub mod cache;
 pub mod calibrate;
@@ -66,6 +67,7 @@ pub mod record;
 mod report;
 pub mod rerun;
 pub mod respond;
+pub mod sensors;
 mod solved;
 pub mod source;
 pub mod stroke;

@@ -54,6 +54,15 @@ pub const PLACE: &str = "Examples:
   One more, with those of the file kept:
     unripple place my-surface.toml --count 1 --keep-all";
 
+/// For `sensors`: sensors, taps, and one more.
+pub const SENSORS: &str = "Examples:
+  Four places of a sensor that records sweeps:
+    unripple sensors hudin-2012 --count 4 --rim-mm 10,75 -o planned
+  Six taps on a screen, for a fit of a uniform tension:
+    unripple sensors my-surface.toml --taps --count 6 --profile 0 --within 30,30,120,30,120,120,30,120
+  One more beside those that have been measured:
+    unripple sensors my-surface.toml --count 1 --keep 62,90 --keep 40,50";
+
 /// For `sweep`: how many designs, all of them, and one shard.
 pub const SWEEP: &str = "Examples:
   unripple sweep plan.toml --count

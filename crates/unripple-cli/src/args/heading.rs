@@ -6,7 +6,7 @@ pub const EVERY: &str = "For every command";
 pub const SURFACES: &str = "Surfaces";
 /// Actuators that are placed, and those that are kept.
 pub const ACTUATORS: &str = "Actuators";
-/// Where actuators may be.
+/// Where actuators or sensors may be.
 pub const PLACES: &str = "Places";
 /// The objective of a search, and its effort.
 pub const SEARCH: &str = "Search";
@@ -38,7 +38,7 @@ pub const POINTS: &str = "Points to measure";
 pub const SWEEPS: &str = "Sweeps";
 /// Which channel each actuator, sensor and the probe is connected to, and which physical value full scale stands for.
 pub const WIRING: &str = "Wiring and scales";
-/// The model with which a surface is compared.
+/// The model with which a surface is compared, or that is fitted to it.
 pub const MODEL: &str = "Model";
 /// Author and licence that a SOFA file contains.
 pub const SOFA: &str = "SOFA";

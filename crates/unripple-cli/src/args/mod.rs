@@ -14,6 +14,7 @@ mod names;
 mod place;
 mod play;
 mod rerun;
+mod sensors;
 mod shell;
 mod sweep;
 mod view;
@@ -34,6 +35,7 @@ pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
 pub use place::PlaceOptions;
 pub use play::{DoctorOptions, PlayOptions};
 pub use rerun::RerunOptions;
+pub use sensors::SensorsOptions;
 pub use shell::{CacheOptions, CompletionsOptions, ManOptions};
 use std::path::PathBuf;
 pub use sweep::SweepOptions;
@@ -94,6 +96,8 @@ pub enum Command {
     Modes(ModesOptions),
     /// Find where actuators should be so that time reversal has the most contrast, and how many are enough.
     Place(PlaceOptions),
+    /// Find where sensors or taps tell a fit most about a surface, with a certificate, and what it would then know.
+    Sensors(SensorsOptions),
     /// Compute impulse responses from the model, as a library.
     Respond(RespondOptions),
     /// Compute a drive that focuses on points or shapes, simulate it, and write a report and pictures.

@@ -5,7 +5,7 @@ use crate::record::{Record, Request};
 use crate::{Progress, TaskError};
 use crate::{
     calibrate, check, compare, design, devices, doctor, drift, export, field, fit, focus, materials, modes,
-    place, play, respond, stroke, waveform,
+    place, play, respond, sensors, stroke, waveform,
 };
 use serde_json::Value;
 use std::path::PathBuf;
@@ -39,8 +39,8 @@ macro_rules! commands {
 
 /// The tasks in the order in which a surface is developed: designed, simulated, driven, measured, played.
 pub(crate) const TASKS: &[Command] = &commands![
-    check, design, modes, materials, place, focus, waveform, stroke, field, compare, respond, calibrate, fit,
-    export, drift, doctor, devices, play
+    check, design, modes, materials, place, sensors, focus, waveform, stroke, field, compare, respond,
+    calibrate, fit, export, drift, doctor, devices, play
 ];
 
 /// The task called `name`; `None` if there is none.

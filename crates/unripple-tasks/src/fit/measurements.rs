@@ -20,7 +20,7 @@ const SAME: f64 = 1e-9;
 const LOWEST: f64 = 1.2;
 
 /// Highest frequency that is fitted, relative to the top of the band: modes at the very top are cut.
-const TOP: f64 = 0.9;
+pub(crate) const TOP: f64 = 0.9;
 
 /// Measured responses of a library, split into those between actuators and those at all other points.
 pub struct Measurements {

@@ -9,7 +9,7 @@ mod run;
 
 pub use ask::Ask;
 pub(crate) use fill::FITTED_TO;
-pub(crate) use measurements::Measurements;
+pub(crate) use measurements::{Measurements, TOP};
 pub use report::Report;
-pub(crate) use run::model;
 pub use run::run;
+pub(crate) use run::{MOST, model, reach};

@@ -11,7 +11,7 @@ use unripple_calibrate::{FitOptions, Fitted, Verdict};
 use unripple_store::{Library, StoreError};
 
 /// Largest number of half waves of a profile, and of stray loads: beyond it, a fit takes hours.
-const MOST: usize = 8;
+pub(crate) const MOST: usize = 8;
 
 /// Modes are computed up to this frequency, in Hz, but no less than 1.4 and no more than 2.8 times the top of the band: above it, the sheet
 /// reacts to a mass as an endless sheet, which holds for waves much shorter than the distance to the edge.
@@ -91,12 +91,17 @@ pub(crate) fn model(
         band: Some(measurements.band),
         profile,
         strays,
-        reach: (KNOWN / measurements.band[1]).clamp(1.4, 2.8),
+        reach: reach(measurements.band[1]),
         ..FitOptions::default()
     };
     let fitted = unripple_calibrate::fit(surface, &measurements.measured, &plan)?;
     go_on(progress)?;
     Ok((measurements, fitted))
+}
+
+/// Highest frequency of the modes that are computed for a fit, as a multiple of the top (Hz) of its band.
+pub(crate) fn reach(top: f64) -> f64 {
+    (KNOWN / top).clamp(1.4, 2.8)
 }
 
 /// Why a doubtful fit counts as failed, and whether anything was written.

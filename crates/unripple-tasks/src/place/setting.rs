@@ -3,9 +3,10 @@
 use super::ask::TESTED;
 use super::refused::refused;
 use super::{Ask, cost};
+use crate::areas::{from_rim, polygons};
 use crate::numbers::above_zero;
 use crate::window::{carries, conditions};
-use crate::{Place, Progress, TaskError, go_on, point};
+use crate::{Progress, TaskError, go_on, point};
 use std::collections::HashSet;
 use std::f64::consts::PI;
 use unripple::act::{Note, accuracy, chosen_window, less_accurate, model};
@@ -61,12 +62,10 @@ impl Setting {
         let kind = kind(ask, &surface)?;
         let kept = Surface { actuators: kept(ask, &surface)?, ..surface.clone() };
         let lambda_min = conditions(&surface).lambda_min;
-        let polygons =
-            |areas: &[Vec<Place>]| areas.iter().map(|area| area.iter().map(point).collect()).collect();
         let rules = Rules {
-            from_rim: ask.rim_m.unwrap_or([0.0, f64::INFINITY]),
-            within: polygons(&ask.within_m),
-            keep_out: polygons(&ask.keep_out_m),
+            from_rim: from_rim(ask.rim_m)?,
+            within: polygons("within_m", &ask.within_m)?,
+            keep_out: polygons("keep_out_m", &ask.keep_out_m)?,
         };
         let (trained, tested) = targets(ask, &surface, lambda_min)?;
         let held_out = ask.points_m.is_empty();
@@ -210,12 +209,7 @@ fn numbers(ask: &Ask) -> Result<(), TaskError> {
     length("mounting_m", ask.mounting_m)?;
     length("apart_m", ask.apart_m.unwrap_or(0.0))?;
     ask.pitch_m.map_or(Ok(1.0), |pitch| above_zero(pitch, "pitch_m", "m"))?;
-    if let Some([least, most]) = ask.rim_m
-        && !(least >= 0.0 && most > least)
-    {
-        let found = format!("{} and {} mm", 1e3 * least, 1e3 * most);
-        return Err(TaskError::ask("rim_m", "two distances, the second one larger", found));
-    }
+    from_rim(ask.rim_m)?;
     if !(ask.weights.is_empty() || ask.weights.len() == ask.points_m.len()) {
         let expected = format!("{}, one for each of `points_m`", ask.points_m.len());
         return Err(TaskError::ask("weights", expected, ask.weights.len()));
@@ -228,13 +222,7 @@ fn numbers(ask: &Ask) -> Result<(), TaskError> {
         ("keep_out_m", &ask.keep_out_m),
         ("targets_within_m", &ask.targets_within_m),
     ] {
-        if let Some(area) = areas.iter().find(|area| area.len() < 3) {
-            return Err(TaskError::ask(
-                field,
-                "polygons of at least 3 corners",
-                format!("{} corners", area.len()),
-            ));
-        }
+        polygons(field, areas)?;
     }
     Ok(())
 }
