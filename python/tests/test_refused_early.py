@@ -92,6 +92,28 @@ def test_places(fresh: ur.Surface, options: dict[str, Any]) -> None:
     _refused(lambda progress: fresh.place(**options, progress=progress))
 
 
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"count": 0},
+        {"keep": [_BEYOND]},
+        {"rim_mm": (12, 6)},
+        {"within": [(0, 0), (150, 0)]},
+        {"grid_mm": 0},
+        {"apart_mm": -1},
+        {"place": [_BEYOND]},
+        {"snr_db": 1000},
+        {"profile": 9},
+        {"sensing": "echoes"},
+        {"columns": 3},
+        {"no_such_option": 1},
+    ],
+    ids=lambda options: ", ".join(options),
+)
+def test_sensors(fresh: ur.Surface, options: dict[str, Any]) -> None:
+    _refused(lambda progress: fresh.sensors(**options, progress=progress))
+
+
 @pytest.mark.parametrize("options", [{"window_ms": -1}, {"window_ms": 0.03}, {"judge_hz": 1}])
 def test_a_comparison(fresh: ur.Surface, options: dict[str, Any]) -> None:
     _refused(lambda progress: fresh.compare([(62, 90)], **options, progress=progress))

@@ -98,6 +98,28 @@ CASES: dict[str, tuple[list[str], Callable[[], ur.Report], Before | None]] = {
         ),
         None,
     ),
+    "sensors": (
+        ["sensors", *_FILM, "--count", "2", "--keep", "62,90.1", "--keep", "40.3,50", "--rim-mm", "6.1,70.3"]
+        + ["--keep-out", "100.1,0,150,0,150,50.3", "--grid-mm", "19.9", "--apart-mm", "10.7", "--snr-db", "41.5"]
+        + ["--profile", "1", "--restarts", "2", "--seed", "7", "--up-to", "3", "--taps", "--no-figures", "-o", "out"],
+        lambda: film().sensors(
+            count=2,
+            keep=[(62, 90.1), (40.3, 50)],
+            rim_mm=(6.1, 70.3),
+            keep_out=[(100.1, 0), (150, 0), (150, 50.3)],
+            grid_mm=19.9,
+            apart_mm=10.7,
+            snr_db=41.5,
+            profile=1,
+            restarts=2,
+            seed=7,
+            up_to=3,
+            taps=True,
+            no_figures=True,
+            output="out",
+        ),
+        None,
+    ),
     "materials": (["materials", "glass"], lambda: ur.materials("glass"), None),
     "points": (
         ["focus", *_FILM, "--at", "40.1,50.3", "--at", "100,90,0.7", "--method", "concentrate", "--peak-um", "1.3"]

@@ -36,6 +36,7 @@ from unripple._tasks import (
     reproduce,
     rerun,
     run,
+    sensors,
     sweep,
 )
 from unripple._view import View
@@ -88,6 +89,7 @@ __all__ = [
     "rerun",
     "respond",
     "run",
+    "sensors",
     "set_progress",
     "set_threads",
     "stroke",

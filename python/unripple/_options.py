@@ -101,6 +101,11 @@ def _limit(name: str, value: object) -> Any:
     return "limit" if flag(name, value) else NOTHING
 
 
+def _taps(name: str, value: object) -> Any:
+    """Return that taps are planned, if they are."""
+    return "taps" if flag(name, value) else NOTHING
+
+
 def _surface(_name: str, value: object) -> Any:
     from unripple._naming import surface_ask
 
@@ -168,6 +173,20 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         Option("tension_percent", "tension", percent),
         *_WINDOW,
         Option("method", "methods", _methods),
+        *_FIGURES,
+    ),
+    "sensors": (
+        *_same(count, "count", "profile", "restarts", "seed", "up_to"),
+        Option("taps", "sensing", _taps),
+        *_same(text, "sensing"),
+        *_places("keep", "keep"),
+        Option("rim_mm", "rim_m", _values.distances),
+        *_polygons("within", "within"),
+        *_polygons("keep_out", "keep_out"),
+        *_places("place", "places"),
+        Option("grid_mm", "pitch_m", milli),
+        Option("apart_mm", "apart_m", milli),
+        *_same(number, "snr_db"),
         *_FIGURES,
     ),
     "respond": (
@@ -283,7 +302,7 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
 }
 
 #: Fields in SI units that are lists of places, which are given as arrays too.
-_PLACES_M = ("points_m", "fingers_m", "silent_m", "bear_fingers_m", "places_m")
+_PLACES_M = ("points_m", "fingers_m", "silent_m", "bear_fingers_m", "places_m", "keep_m")
 
 #: Fields in SI units that are lists of polygons.
 _POLYGONS_M = ("within_m", "keep_out_m", "targets_within_m")

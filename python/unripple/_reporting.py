@@ -135,6 +135,53 @@ class Reporting:
         """
         return self._report("place", options)
 
+    def sensors(self, **options: Unpack[_types.SensorsOptions]) -> Report:
+        """Find where sensors or taps tell a fit most about the surface, and what it would then know.
+
+        Parameters
+        ----------
+        count, taps
+            How many to plan, 4 by default, and whether they are taps, recorded by the sensors of all actuators, in place of a sensor that
+            records sweeps.
+        keep
+            Places ``(x, y)`` in mm that are measured in any case, beside `count` others.
+        rim_mm, within, keep_out
+            Where places may be: between two distances from the rim, in one of some polygons, and in none of others. A polygon is a sequence
+            of corners ``(x, y)`` in mm; one alone stands for a list of one.
+        grid_mm, place
+            Spacing of the grid of places to choose from, by default a quarter of the shortest wavelength; or the places themselves, in mm.
+        apart_mm
+            Least distance between any two places.
+        snr_db
+            Signal-to-noise ratio of the measured spectra, the mean over all places, 50 dB by default.
+        profile
+            Largest number of half waves in the variation of tension that is fitted, 3 by default; 0 for uniform tension.
+        restarts, seed
+            Number of random choices that the search begins from, beside the greedy one, and their seed.
+        up_to
+            Largest number of places in the table of deviations against their number; by default twice `count`.
+        output, no_figures, columns
+            Folder for report and figures; as for :meth:`focus`.
+
+        Returns
+        -------
+        Report
+            With the places as ``at_m``, the standard deviations of all ``unknowns`` with them and with others, their ``certificate``, and
+            the deviations with ``each_number`` of places.
+
+        Examples
+        --------
+        >>> import unripple as ur
+        >>> film = ur.Surface("hudin-2012", band_hz=[0, 400])
+        >>> report = film.sensors(count=2, grid_mm=25, profile=0, restarts=1)
+        >>> report.certificate.certified
+        True
+        >>> tension = report.unknowns[0]
+        >>> tension.name == "tension" and tension.planned < tension.prior
+        True
+        """
+        return self._report("sensors", options)
+
     def compare(
         self, targets: _types.Targets | None = None, /, **options: Unpack[_types.CompareOptions]
     ) -> Report:

@@ -140,6 +140,30 @@ def place(surface: _types.SurfaceLike, **options: Unpack[_types.PlaceOptions]) -
     return _call.report("place", options, surface=surface)
 
 
+def sensors(surface: _types.SurfaceLike, **options: Unpack[_types.SensorsOptions]) -> Report:
+    """Find where sensors or taps tell a fit most about a surface, and what it would then know; see :meth:`Surface.sensors`.
+
+    Parameters
+    ----------
+    surface
+        A surface.
+    **options
+        As for :meth:`Surface.sensors`.
+
+    Returns
+    -------
+    Report
+
+    Examples
+    --------
+    >>> import unripple as ur
+    >>> film = ur.Surface("hudin-2012", band_hz=[0, 400])
+    >>> ur.sensors(film, count=2, grid_mm=25, profile=0, restarts=1).certificate.certified
+    True
+    """
+    return _call.report("sensors", options, surface=surface)
+
+
 def compare(
     surface: _types.SurfaceLike | Sequence[_types.SurfaceLike],
     targets: _types.Targets | None = None,

@@ -52,6 +52,7 @@ Times: TypeAlias = float | Sequence[float] | npt.NDArray[np.floating[Any]]
 Method: TypeAlias = Literal["time-reversal", "one-bit", "inverse", "concentrate", "limited", "robust", "felt"]
 Between: TypeAlias = Literal["nearest", "linear", "kernel"]
 Objective: TypeAlias = Literal["mean", "worst", "quantile"]
+Sensing: TypeAlias = Literal["sweeps", "taps"]
 Losses: TypeAlias = Literal["none", "uniform", "per-mode"]
 Device: TypeAlias = Literal["virtual", "jack", "card", "tape"]
 
@@ -138,6 +139,37 @@ class PlaceOptions(SurfaceOptions, FigureOptions, total=False):
     up_to: int | None
     method: Method | Sequence[Method] | None
     methods: Sequence[Method] | None
+
+
+class SensorsOptions(SurfaceOptions, FigureOptions, total=False):
+    """Options of `sensors`."""
+
+    count: int | None
+    taps: bool | None
+    sensing: Sensing | None
+    keep: Places | None
+    keep_mm: Places | None
+    keep_m: Places | None
+    rim_mm: Row | None
+    rim_m: Row | None
+    within: Polygons | None
+    within_mm: Polygons | None
+    within_m: Polygons | None
+    keep_out: Polygons | None
+    keep_out_mm: Polygons | None
+    keep_out_m: Polygons | None
+    place: Places | None
+    places_mm: Places | None
+    places_m: Places | None
+    grid_mm: float | None
+    pitch_m: float | None
+    apart_mm: float | None
+    apart_m: float | None
+    snr_db: float | None
+    profile: int | None
+    restarts: int | None
+    seed: int | None
+    up_to: int | None
 
 
 class TargetOptions(TypedDict, total=False):

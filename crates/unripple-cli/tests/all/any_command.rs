@@ -126,6 +126,20 @@ const PLACE: &[(&str, Value)] = &[
     ("-o", One(&["placed", "out"])),
 ];
 
+const SENSORS: &[(&str, Value)] = &[
+    ("--taps", Nothing),
+    ("--keep", Place),
+    ("--rim-mm", One(&["1,8", "2,30", "8,1", "0,0", "nan,1", "5"])),
+    ("--within", Area),
+    ("--keep-out", Area),
+    ("--place", Place),
+    ("--apart-mm", Number(0.1, 100.0)),
+    ("--snr-db", Number(1.0, 80.0)),
+    ("--restarts", Whole(0, 5)),
+    ("--up-to", Whole(1, 8)),
+    ("-o", One(&["planned", "out"])),
+];
+
 const KINDS: &[Kind] = &[
     Kind { words: "check surface.toml", always: &[], perhaps: &[] },
     Kind { words: "design surface.toml", always: &[], perhaps: &[] },
@@ -220,6 +234,11 @@ const KINDS: &[Kind] = &[
     },
     Kind { words: "doctor surface.toml --tuio 0", always: &[], perhaps: &[] },
     Kind { words: "place surface.toml", always: &[("--count", Whole(1, 4))], perhaps: PLACE },
+    Kind {
+        words: "sensors surface.toml",
+        always: &[("--count", Whole(1, 4)), ("--grid-mm", Number(10.0, 50.0)), ("--profile", Whole(0, 2))],
+        perhaps: SENSORS,
+    },
 ];
 
 /// Indices into [`KINDS`] of what others read the results of: a focus and a library.

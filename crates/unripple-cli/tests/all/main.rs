@@ -39,6 +39,7 @@ mod refusal;
 mod report_schema;
 mod reproduce;
 mod rerun;
+mod sensors;
 mod short_drives;
 #[path = "../../../unripple-core/tests/shared/skip.rs"]
 mod skip;

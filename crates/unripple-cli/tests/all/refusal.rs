@@ -71,6 +71,7 @@ fn a_band_without_modes_is_refused_by_name() {
         vec!["focus", "--at", "62,90", "-o", &out],
         vec!["compare", "--at", "62,90", "-o", &out],
         vec!["place", "--at", "62,90", "--grid-mm", "10", "-o", &out],
+        vec!["sensors", "--grid-mm", "10", "-o", &out],
         vec!["respond", "--grid-mm", "30", "-o", &out],
         vec!["calibrate", "--grid-mm", "30", "-o", &out],
     ] {

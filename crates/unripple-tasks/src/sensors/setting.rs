@@ -125,8 +125,8 @@ fn numbers(ask: &Ask, surface: &Surface) -> Result<(), TaskError> {
         let found = format!("{} mm", 1e3 * ask.apart_m);
         return Err(TaskError::ask("apart_m", "a length from 0 to 1000 mm", found));
     }
-    if !(-100.0..=200.0).contains(&ask.snr_db) {
-        return Err(TaskError::ask("snr_db", "a number from -100 to 200 dB", ask.snr_db));
+    if !(-100.0..=120.0).contains(&ask.snr_db) {
+        return Err(TaskError::ask("snr_db", "a number from -100 to 120 dB", ask.snr_db));
     }
     let least = if ask.sensing == SensingAsk::Taps { 2 } else { 1 };
     let found = surface.actuators.len();
