@@ -43,7 +43,7 @@ impl Approximate {
         self.excess <= TOLERANCE
     }
 
-    /// What ln det of no design of as many measurements exceeds, be they at different places or some at the same.
+    /// The number that ln det of no design of as many measurements exceeds, be they at different places or some at the same.
     pub fn bound(&self, informations: &Informations) -> f64 {
         self.log_det + self.excess.max(0.0) * informations.unknowns() as f64
     }
@@ -112,7 +112,7 @@ impl Informations {
             }
             steps += 1;
             self.step(&mut weights, most, &here.solved, count);
-            newton::shared(self, &mut weights, count);
+            newton::shared(self, &mut weights, count, excess);
         }
     }
 

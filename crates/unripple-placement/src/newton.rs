@@ -9,8 +9,9 @@ use unripple_linalg::{Cholesky, Mat};
 const STEPS: usize = 100;
 
 /// Largest difference of a sensitivity from the number of unknowns, relative to it, at which shares have settled: a hundredth of what
-/// certifies a design.
+/// certifies a design, or (`SHARE`) this share of the excess elsewhere, which another place will change anyway.
 const SETTLED: f64 = 1e-8;
+const SHARE: f64 = 1e-2;
 
 /// What is added to the diagonal of the equations, relative to its largest entry: places that tell the same have one share in common.
 const RIDGE: f64 = 1e-10;
@@ -24,9 +25,11 @@ const ROUNDING: f64 = 1e-12;
 /// Halvings of a step that does not gain.
 const HALVINGS: usize = 30;
 
-/// Changes the shares of the places in use so that the determinant of the information of `count` measurements is largest.
-pub(crate) fn shared(all: &Informations, weights: &mut [f64], count: usize) {
+/// Changes the shares of the places in use so that the determinant of the information of `count` measurements is largest. `excess` is that of
+/// the largest sensitivity of all places, relative to the number of unknowns.
+pub(crate) fn shared(all: &Informations, weights: &mut [f64], count: usize, excess: f64) {
     let unknowns = all.unknowns();
+    let settled = SETTLED.max(SHARE * excess);
     for _ in 0..STEPS {
         let used: Vec<usize> = (0..weights.len()).filter(|place| weights[*place] > 0.0).collect();
         let Some(solved) = Solved::of(&all.by_shares(weights, count), unknowns) else { return };
@@ -35,7 +38,7 @@ pub(crate) fn shared(all: &Informations, weights: &mut [f64], count: usize) {
         let one = packed(&Mat::identity(unknowns, unknowns));
         let slopes: Vec<f64> = each.iter().map(|matrix| inner(matrix, &one)).collect();
         let level = unknowns as f64;
-        if slopes.iter().all(|slope| (slope - level).abs() <= SETTLED * level) {
+        if slopes.iter().all(|slope| (slope - level).abs() <= settled * level) {
             return;
         }
         let Some(step) = step(&each, &slopes) else { return };

@@ -138,7 +138,7 @@ pub(super) struct Study<'a> {
 }
 
 impl Study<'_> {
-    /// The sums over all frequencies at each place.
+    /// The sums over all frequencies at each place (m).
     pub fn gathered(&self, system: &System, places: &[Point]) -> Result<Vec<Gathered>, CalibrateError> {
         let stiffening = Stiffening::of(system, self.basis);
         let unknowns = self.layout.unknowns();

@@ -11,7 +11,7 @@ const FILM: [&str; 8] =
     ["sensors", "hudin-2012", "--set", "drive.band_hz=[0,400]", "--profile", "0", "--grid-mm", "12"];
 
 fn planned(more: &[&str]) -> Value {
-    json(&[&FILM[..], more].concat())
+    json(&[&FILM[..], &["--restarts", "2"], more].concat())
 }
 
 /// The planned places of a report.
@@ -52,7 +52,7 @@ fn taps_tell_of_sensors_and_sweeps_of_drives() {
     let (sweeps, taps): (&[&str], &[&str]) = (&[], &["--taps"]);
     let (drive, sense) = ("drive gain of a1", "sensor gain of a1");
     for (options, told, untold) in [(sweeps, drive, sense), (taps, sense, drive)] {
-        let report = planned(&[&["--count", "2", "--restarts", "1"][..], options].concat());
+        let report = planned(&[&["--count", "2", "--up-to", "2"][..], options].concat());
         let names = |list: &Value| -> Vec<String> {
             let of = |item: &Value| item["name"].as_str().or(item.as_str()).unwrap().to_owned();
             list.as_array().unwrap().iter().map(of).collect()
@@ -64,7 +64,18 @@ fn taps_tell_of_sensors_and_sweeps_of_drives() {
 
 #[test]
 fn places_keep_to_the_rules_and_their_distances() {
-    let report = planned(&["--count", "3", "--rim-mm", "20,60", "--apart-mm", "40", "--keep", "75,75"]);
+    let report = planned(&[
+        "--count",
+        "3",
+        "--up-to",
+        "3",
+        "--rim-mm",
+        "20,60",
+        "--apart-mm",
+        "40",
+        "--keep",
+        "75,75",
+    ]);
     let mut all = places(&report);
     for at in &all {
         let to_rim = [at.x, 0.15 - at.x, at.y, 0.15 - at.y].into_iter().fold(f64::INFINITY, f64::min);
@@ -95,7 +106,7 @@ fn the_folder_has_the_report_and_its_figures() {
     }
     let held = |name: &str| scratch.path().join("planned").join(name).is_file();
     assert!(files.iter().copied().chain(["report.json", "report.md"]).all(held), "{files:?}");
-    let output = run(&[&FILM[..], &["--count", "2"]].concat());
+    let output = run(&[&FILM[..], &["--count", "2", "--restarts", "0"]].concat());
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     for part in ["2 sensors planned", "certificate: ", "told by no place: ", "\ntension "] {

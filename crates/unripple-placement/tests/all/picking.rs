@@ -139,7 +139,7 @@ fn the_certificate_holds_for_many_places_and_unknowns() {
                 .sum();
             assert!((trace - best.sensitivity[place]).abs() < 1e-6 * unknowns as f64);
             assert!(trace <= unknowns as f64 * (1.0 + 2e-6), "{place}: {trace}");
-            assert!(best.weights[place] < 1e-6 || trace > unknowns as f64 * (1.0 - 1e-5), "{place}: {trace}");
+            assert!(best.weights[place] < 1e-6 || trace > unknowns as f64 * (1.0 - 1e-4), "{place}: {trace}");
         }
         // From a design that is already the best, there is nothing to do.
         assert_eq!(all.approximate(count, Some(&best.weights)).unwrap().weights, best.weights);
