@@ -52,6 +52,11 @@ const WIDER: f64 = 1.6;
 /// limit removed is computed from the model, and so improves with it.
 const AGAIN: usize = 1;
 
+/// Largest difference of two descents in any unknown, in standard deviations of its prior, with which both have ended in the same minimum.
+/// Those of good models differ by 1e-3 at most; minima in which another mode is taken for a measured one are several deviations of
+/// the tension apart.
+const SAME: f64 = 0.1;
+
 /// Smallest residual relative to noise at which stray masses are searched, and (`WORTH`) the largest ratio
 /// of the residual with a stray mass to that without at which the mass is kept.
 const SUSPECT: f64 = 1.5;
@@ -102,10 +107,13 @@ pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Resu
     let values = expected.clone();
     let mut fit = Fit { nominal, measured, options, basis: &basis, layout, values, expected, top };
     let mut high = (FIRST * first).max(FIRST * band[0]).min(band[1]);
-    fit.begin([band[0], high], high < band[1])?;
+    if fit.begin([band[0], high], high < band[1])? {
+        // In these two bands the best start has been fitted.
+        high = wider(wider(high, band[1]), band[1]);
+    }
     while high < band[1] {
         fit.widen([band[0], high], COARSE, options.reach * high, false)?;
-        high = if high * WIDER * 1.2 > band[1] { band[1] } else { high * WIDER };
+        high = wider(high, band[1]);
     }
     for _ in 0..if limited.is_some() { AGAIN } else { 0 } {
         fit.widen(band, FINE, options.reach * top, false)?;
@@ -143,6 +151,11 @@ pub(super) fn unknowns_of(surface: &Surface, basis: &Basis, silent: Vec<usize>, 
     }
 }
 
+/// Top of the band that is fitted after the one up to `high` (Hz); `top` is that of the last.
+fn wider(high: f64, top: f64) -> f64 {
+    if high * WIDER * 1.2 > top { top } else { high * WIDER }
+}
+
 /// State of a fit in progress.
 #[derive(Clone)]
 struct Fit<'a> {
@@ -158,12 +171,13 @@ struct Fit<'a> {
 
 impl Fit<'_> {
     /// Searches starting values with the lowest modes: each of the likeliest starts is fitted in a small
-    /// band, and the best is used.
-    fn begin(&mut self, band: [f64; 2], more: bool) -> Result<(), CalibrateError> {
+    /// band, those that end in different minima in a wider one, and the best is used. Returns whether there were several.
+    fn begin(&mut self, band: [f64; 2], more: bool) -> Result<bool, CalibrateError> {
         let modes_hz = self.options.reach * band[1];
         let spectra = self.spectra(band, COARSE)?;
         let starts = self.case(&self.layout, &spectra, self.basis.below(modes_hz)).starts(&self.expected)?;
         let mut best: Option<(f64, Self)> = None;
+        let mut followed: Vec<Self> = Vec::new();
         for start in &starts {
             let mut fit = self.clone();
             // From here on the priors of the gains are centred on those of the start, no longer on the
@@ -173,9 +187,13 @@ impl Fit<'_> {
             let mut left = f64::INFINITY;
             if starts.len() > 1 {
                 fit.widen(band, COARSE, modes_hz, false)?;
-                let wider = if more { WIDER } else { 1.0 };
-                let modes_hz = wider * modes_hz;
-                let (found, ..) = fit.widen([band[0], wider * band[1]], COARSE, modes_hz, false)?;
+                if followed.iter().any(|other| fit.agrees(other, &spectra)) {
+                    continue;
+                }
+                followed.push(fit.clone());
+                let factor = if more { WIDER } else { 1.0 };
+                let modes_hz = factor * modes_hz;
+                let (found, ..) = fit.widen([band[0], factor * band[1]], COARSE, modes_hz, false)?;
                 left = found.share;
             }
             if best.as_ref().is_none_or(|(least, _)| left < *least) {
@@ -185,7 +203,14 @@ impl Fit<'_> {
         if let Some((_, fit)) = best {
             *self = fit;
         }
-        Ok(())
+        Ok(starts.len() > 1)
+    }
+
+    /// Whether two descents have ended in the same minimum.
+    fn agrees(&self, other: &Self, spectra: &Spectra) -> bool {
+        let case = self.case(&self.layout, spectra, 0);
+        self.layout.strays == other.layout.strays
+            && case.offsets(&self.values, &other.values).iter().all(|offset| offset.abs() < SAME)
     }
 
     /// The measured spectra in a band (Hz) under the window e^{-αt}.

@@ -128,7 +128,7 @@ impl Case<'_> {
     }
 
     /// Distance of each unknown from its expected value, in standard deviations of its prior.
-    fn offsets(&self, values: &Values, expected: &Values) -> Vec<f64> {
+    pub fn offsets(&self, values: &Values, expected: &Values) -> Vec<f64> {
         let (mut values, mut expected) = (values.clone(), expected.clone());
         let unknowns = self.layout.unknowns().into_iter();
         unknowns.map(|u| (*values.of(u) - *expected.of(u)) / self.layout.spread(u)).collect()
