@@ -41,7 +41,8 @@ fn addresses_of_a_page_are_defined() {
 
 #[test]
 fn changes_of_tension_are_defined() {
-    let drift = ["drift", "hudin-2012", "--seconds", "2", "--changed-percent", "0.5"];
+    let film = ["drift", "hudin-2012", "--set", "drive.band_hz=[0, 1000]"];
+    let drift = [&film[..], &["--seconds", "2", "--changed-percent", "0.5"]].concat();
     let drift = json(&[&drift[..], &["--changing-percent-per-min", "2"]].concat());
     assert!(!drift["pings"].as_array().unwrap().is_empty(), "{drift}");
 }

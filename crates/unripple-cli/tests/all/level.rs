@@ -66,10 +66,11 @@ fn nothing_moves_by_more_than_half_the_thickness_whatever_is_asked() {
         &["--at", "40,50,0.3", "--at", "100,90,-1"][..],
         &["--at", "40,50,1,20", "--at", "100,90,0.5,10"],
         &["--shape", "circle:75,75,25"],
-        &["--at", "62,90", "--judge-hz", "6000"],
+        &["--at", "62,90", "--judge-hz", "3000"],
         &["--at", "62,90", "--method", "felt"],
     ] {
-        let report = json(&[&["focus", "hudin-2012", "--window-ms", "20", "-o", &out], arguments].concat());
+        let film = ["focus", "hudin-2012", "--set", "drive.band_hz=[0, 1500]", "--no-figures"];
+        let report = json(&[&film[..], &["--window-ms", "20", "-o", &out], arguments].concat());
         let most = moved(&report) / (0.5 * THICKNESS);
         assert!((0.97..1.05).contains(&most), "{arguments:?}: {most}");
         assert!(topics(&report).is_empty(), "{arguments:?}: {}", report["notes"]);
@@ -123,10 +124,9 @@ fn tension_and_yield_decide_where_they_come_first() {
 fn what_a_method_does_at_its_limit_is_void_below_it_and_said_to_be() {
     let scratch = Scratch::new("level-methods");
     let out = scratch.join("out");
+    let film = ["focus", "hudin-2012", "--set", "drive.band_hz=[0, 1500]", "--no-figures"];
     let focus = |arguments: &[&str]| {
-        json(
-            &[&["focus", "hudin-2012", "--at", "62,90", "--window-ms", "30", "-o", &out], arguments].concat(),
-        )
+        json(&[&film[..], &["--at", "62,90", "--window-ms", "30", "-o", &out], arguments].concat())
     };
     let limited = focus(&["--method", "limited"]);
     let concentrate = focus(&["--method", "concentrate", "--strength", "0.98"]);

@@ -187,6 +187,9 @@ fn losses_are_made_up_for() {
         let report = json(&[
             "focus",
             "hudin-2012",
+            "--set",
+            "drive.band_hz=[0, 1500]",
+            "--no-figures",
             "--at",
             "62,90",
             "--window-ms",
