@@ -12,7 +12,7 @@
 //! - [`Drawing`] reads the shapes of an SVG document as polylines, in metres; [`read_curves`] keeps them as curves.
 //! - [`Library`] stores responses, measured or modelled, as a Zarr v3 folder that survives being killed, and exports
 //!   them as WAV and SOFA.
-//! - [`load_plan`] reads the plan of a sweep.
+//! - [`load_plan`] reads the plan of a sweep, [`load_search`] that of a search.
 //! - [`ConfigFile`] is the user's file of options.
 //! - [`load_effects`] reads built-in effects, a file of effects, or one for phones; [`effects_to_toml`] writes one.
 //! - [`OutputDir`] collects what a run writes and puts it in place in one step, replacing only the output of an
@@ -70,7 +70,8 @@ pub use load::{load_surface, load_surface_with, read_drawing, surface_files};
 pub use names::nearest;
 pub use output::{Committed, OutputDir};
 pub use plans::{
-    Axis, AxisValues, Designs, MOST_DESIGNS, PlanFile, PlanTask, Varied, load_plan, parse_plan, plan_surface,
+    Axis, AxisValues, Bound, Designs, MOST_DESIGNS, Objective, PlanFile, PlanTask, SearchFile, Varied, Want,
+    load_plan, load_search, parse_plan, parse_search, plan_surface,
 };
 pub use set::set_keys;
 pub use sofa::{SofaAbout, date};

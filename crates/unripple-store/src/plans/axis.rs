@@ -9,6 +9,17 @@ use serde_json::Value;
 /// Keys of an axis.
 const KEYS: [&str; 8] = ["key", "ask", "values", "from", "to", "steps", "log", "whole"];
 
+/// Who chooses values on the axes of a plan.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Chosen {
+    /// The plan: those of a list, or so many between two ends.
+    Here,
+    /// Sobol points between two ends.
+    BySobol,
+    /// A search: of a list, or anywhere between two ends.
+    BySearch,
+}
+
 /// What varies along an axis, and over which values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
@@ -30,7 +41,7 @@ pub enum AxisValues {
         from: f64,
         /// The greatest value, above the least.
         to: f64,
-        /// Number of values, at least 2, both ends among them; `None` where Sobol points choose them.
+        /// Number of values, at least 2, both ends among them; `None` where Sobol points or a search choose them.
         steps: Option<usize>,
         /// Whether ratios of neighbours are equal, rather than differences; both ends are then above 0.
         log: bool,
@@ -40,7 +51,7 @@ pub enum AxisValues {
 }
 
 impl Axis {
-    /// Number of values of the axis; 1 where Sobol points choose them.
+    /// Number of values of the axis; 1 where Sobol points or a search choose them between two ends.
     pub fn count(&self) -> usize {
         match &self.values {
             AxisValues::List(list) => list.len(),
@@ -49,16 +60,16 @@ impl Axis {
     }
 }
 
-/// An axis from its table. `sobol` says whether Sobol points choose its values; `fields` are those of the task, if it is known.
+/// An axis from its table; `fields` are those of the task, if it is known.
 pub(super) fn read(
     section: &Section,
-    sobol: bool,
+    chosen: Chosen,
     fields: Option<&[&str]>,
     faults: &mut Faults,
 ) -> Option<Axis> {
     section.check_keys(&KEYS, |_| None, faults);
     let varied = varied(section, fields, faults);
-    let values = values(section, sobol, faults);
+    let values = values(section, chosen, faults);
     Some(Axis { varied: varied?, values: values? })
 }
 
@@ -78,21 +89,26 @@ fn varied(section: &Section, fields: Option<&[&str]>, faults: &mut Faults) -> Op
     }
 }
 
-fn values(section: &Section, sobol: bool, faults: &mut Faults) -> Option<AxisValues> {
+fn values(section: &Section, chosen: Chosen, faults: &mut Faults) -> Option<AxisValues> {
     let (from, to) = (section.get("from"), section.get("to"));
     match (section.get("values"), from, to) {
-        (Some(entry), None, None) if !sobol => list(&entry, faults),
-        (Some(entry), None, None) => {
+        (Some(entry), None, None) if chosen == Chosen::BySobol => {
             entry.refuse("from and to, between which Sobol points lie", None, faults);
             None
         }
+        (Some(entry), None, None) if chosen == Chosen::BySearch => choices(&entry, faults),
+        (Some(entry), None, None) => list(&entry, faults),
         (Some(entry), ..) => {
             entry.refuse("values, or from and to, not both", None, faults);
             None
         }
-        (None, Some(from), Some(to)) => range(section, [&from, &to], sobol, faults),
+        (None, Some(from), Some(to)) => range(section, [&from, &to], chosen, faults),
         (None, ..) => {
-            let expected = if sobol { "from and to" } else { "values, or from, to and steps" };
+            let expected = match chosen {
+                Chosen::Here => "values, or from, to and steps",
+                Chosen::BySobol => "from and to",
+                Chosen::BySearch => "values, or from and to",
+            };
             faults.add(&section.key, section.span.clone(), "no range of values", expected, None);
             None
         }
@@ -108,10 +124,21 @@ fn list(entry: &Entry, faults: &mut Faults) -> Option<AxisValues> {
     read.into_iter().collect::<Option<_>>().map(AxisValues::List)
 }
 
-fn range(section: &Section, ends: [&Entry; 2], sobol: bool, faults: &mut Faults) -> Option<AxisValues> {
+/// The values among which a search chooses: two at least, each once.
+fn choices(entry: &Entry, faults: &mut Faults) -> Option<AxisValues> {
+    let Some(AxisValues::List(values)) = list(entry, faults) else { return None };
+    let is_second = |at: usize| values[..at].contains(&values[at]);
+    if values.len() < 2 || (0..values.len()).any(is_second) {
+        entry.refuse("a list of at least two values to choose from, each once", None, faults);
+        return None;
+    }
+    Some(AxisValues::List(values))
+}
+
+fn range(section: &Section, ends: [&Entry; 2], chosen: Chosen, faults: &mut Faults) -> Option<AxisValues> {
     let [from, to] = ends.map(|end| end.number(&ANY, faults));
     let (log, whole) = (flag(section.get("log"), faults), flag(section.get("whole"), faults));
-    let steps = steps(section, sobol, faults);
+    let steps = steps(section, chosen, faults);
     let (from, to, log, whole, steps) = (from?, to?, log?, whole?, steps?);
     if from >= to {
         ends[1].refuse(format!("a number above from = {from}: an empty range has no values"), None, faults);
@@ -134,16 +161,20 @@ fn range(section: &Section, ends: [&Entry; 2], sobol: bool, faults: &mut Faults)
     Some(AxisValues::Range { from, to, steps, log, whole })
 }
 
-/// The number of steps: `Some(None)` where Sobol points choose the values.
-fn steps(section: &Section, sobol: bool, faults: &mut Faults) -> Option<Option<usize>> {
-    match (section.get("steps"), sobol) {
-        (None, true) => Some(None),
-        (Some(entry), true) => {
+/// The number of steps: `Some(None)` where the plan does not choose the values.
+fn steps(section: &Section, chosen: Chosen, faults: &mut Faults) -> Option<Option<usize>> {
+    match (section.get("steps"), chosen) {
+        (None, Chosen::BySobol | Chosen::BySearch) => Some(None),
+        (Some(entry), Chosen::BySobol) => {
             entry.refuse("no steps: count in [sobol] says how many designs there are", None, faults);
             None
         }
-        (Some(entry), false) => entry.count(2, MOST_DESIGNS, faults).map(Some),
-        (None, false) => {
+        (Some(entry), Chosen::BySearch) => {
+            entry.refuse("no steps: the search chooses any value between from and to", None, faults);
+            None
+        }
+        (Some(entry), Chosen::Here) => entry.count(2, MOST_DESIGNS, faults).map(Some),
+        (None, Chosen::Here) => {
             let expected = format!("a whole number from 2 to {MOST_DESIGNS}");
             section.require("steps", &expected, faults);
             None

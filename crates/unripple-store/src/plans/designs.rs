@@ -1,6 +1,6 @@
 //! The designs of a plan: a grid, Sobol points or a list.
 
-use super::axis::{self, Axis};
+use super::axis::{self, Axis, Chosen};
 use super::value::{MOST_DESIGNS, json};
 use super::varied::{Varied, overlap, twice, unknown};
 use crate::surface::reader::{Entry, Faults, Section};
@@ -75,7 +75,8 @@ pub(super) fn read(root: &Section, fields: Option<&[&str]>, faults: &mut Faults)
     match (root.get("axis"), root.get("design")) {
         (Some(axes), None) => {
             let points = sobol.as_ref().map(|entry| points(entry, faults));
-            let read = axes_of(&axes, sobol.is_some(), fields, faults);
+            let chosen = if sobol.is_some() { Chosen::BySobol } else { Chosen::Here };
+            let read = axes_of(&axes, chosen, fields, faults);
             match points {
                 None => grid(&axes, read?, faults),
                 Some(points) => {
@@ -102,13 +103,18 @@ pub(super) fn read(root: &Section, fields: Option<&[&str]>, faults: &mut Faults)
 }
 
 /// The axes from their tables, no two of which set the same.
-fn axes_of(entry: &Entry, sobol: bool, fields: Option<&[&str]>, faults: &mut Faults) -> Option<Vec<Axis>> {
+pub(super) fn axes_of(
+    entry: &Entry,
+    chosen: Chosen,
+    fields: Option<&[&str]>,
+    faults: &mut Faults,
+) -> Option<Vec<Axis>> {
     let Some(items) = entry.items().filter(|items| (1..=MOST_AXES).contains(&items.len())) else {
         entry.refuse(format!("1 to {MOST_AXES} tables headed [[axis]]"), None, faults);
         return None;
     };
     let read: Vec<_> =
-        items.iter().map(|item| axis::read(&item.section(faults)?, sobol, fields, faults)).collect();
+        items.iter().map(|item| axis::read(&item.section(faults)?, chosen, fields, faults)).collect();
     let axes = read.into_iter().collect::<Option<Vec<_>>>()?;
     let Some([first, second]) = overlap(axes.iter().map(|axis| &axis.varied)) else { return Some(axes) };
     let section = items[second].section(faults)?;

@@ -1,12 +1,14 @@
-//! Plans of sweeps, format 1: which keys of a surface file and which options of a task vary, and over which values.
+//! Plans of sweeps and of searches, format 1: which keys of a surface file and which options of a task vary, and over which values.
 
 mod axis;
 mod designs;
+mod search;
 mod value;
 mod varied;
 
 pub use axis::{Axis, AxisValues};
 pub use designs::Designs;
+pub use search::{Bound, Objective, SearchFile, Want, load_search, parse_search};
 pub use value::MOST_DESIGNS;
 pub use varied::Varied;
 
@@ -23,6 +25,9 @@ use std::path::Path;
 /// Keys at the top of a plan.
 const KEYS: [&str; 10] =
     ["format", "name", "task", "surface", "ask", "shard", "axis", "sobol", "design", "figures"];
+
+/// Keys that only a plan of a search has at its top.
+const OF_SEARCH: [&str; 3] = ["optimise", "objective", "constraint"];
 
 /// Designs in a shard where the plan does not say: of designs that take a second each, a third of a minute is lost if a process is killed.
 const SHARD: usize = 20;
@@ -86,7 +91,15 @@ pub struct PlanFile {
 /// # Ok::<(), unripple_store::FileFaults>(())
 /// ```
 pub fn parse_plan(text: &str, file: &str, tasks: &[PlanTask]) -> Result<PlanFile, FileFaults> {
-    document::parse_up_to(LARGEST_PLAN, text, file, &KEYS, |root, name, faults| {
+    let keys: Vec<&str> = KEYS.into_iter().chain(OF_SEARCH).collect();
+    document::parse_up_to(LARGEST_PLAN, text, file, &keys, |root, name, faults| {
+        for key in OF_SEARCH {
+            // What it says of designs would only be told as wrong.
+            if let Some(entry) = root.get(key) {
+                entry.refuse("a plan of a sweep: `unripple optimise` computes this one", None, faults);
+                return None;
+            }
+        }
         read(root, name, tasks, faults)
     })
 }
@@ -107,31 +120,61 @@ pub fn plan_surface(path: impl AsRef<Path>) -> Option<String> {
 }
 
 fn read(root: &Section, name: Option<String>, tasks: &[PlanTask], faults: &mut Faults) -> Option<PlanFile> {
-    let choices: Vec<(&'static str, &PlanTask)> = tasks.iter().map(|task| (task.0, task)).collect();
-    let expected = || choices.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
-    let task = root.require("task", &expected(), faults).and_then(|entry| entry.choice(&choices, faults));
-    let fields = task.map(|task| task.1.iter().map(String::as_str).collect::<Vec<_>>());
-    let expected = "the name of a built-in surface, or of a file relative to this one";
-    let surface = root.require("surface", expected, faults).and_then(|entry| entry.line(expected, faults));
-    let ask = ask(root, fields.as_deref(), faults);
-    let shard = match root.get("shard") {
-        Some(entry) => entry.count(1, LARGEST_SHARD, faults),
-        None => Some(SHARD),
-    };
-    let designs = designs::read(root, fields.as_deref(), faults);
-    let figures = match root.get("figures") {
-        Some(entry) => figures(&entry, faults),
-        None => Some(Vec::new()),
-    };
+    let given = Given::read(root, tasks, faults);
+    let shard = shard(root, SHARD, faults);
+    let designs = designs::read(root, given.fields().as_deref(), faults);
+    let figures = figures_of(root, faults);
     Some(PlanFile {
         name: name?,
-        task: task?.0.to_owned(),
-        surface: surface?,
-        ask: ask?,
+        task: given.task?.0.to_owned(),
+        surface: given.surface?,
+        ask: given.ask?,
         shard: shard?,
         designs: designs?,
         figures: figures?,
     })
+}
+
+/// What plans of both kinds say of the task that designs are given to; what has a fault is missing.
+struct Given<'t> {
+    task: Option<&'t PlanTask>,
+    surface: Option<String>,
+    ask: Option<BTreeMap<String, Value>>,
+}
+
+impl<'t> Given<'t> {
+    fn read(root: &Section, tasks: &'t [PlanTask], faults: &mut Faults) -> Self {
+        let choices: Vec<(&'static str, &PlanTask)> = tasks.iter().map(|task| (task.0, task)).collect();
+        let expected = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
+        let task = root.require("task", &expected, faults).and_then(|entry| entry.choice(&choices, faults));
+        let expected = "the name of a built-in surface, or of a file relative to this one";
+        let surface =
+            root.require("surface", expected, faults).and_then(|entry| entry.line(expected, faults));
+        let mut given = Self { task, surface, ask: None };
+        given.ask = ask(root, given.fields().as_deref(), faults);
+        given
+    }
+
+    /// The fields of the task's request, if it is known.
+    fn fields(&self) -> Option<Vec<&'t str>> {
+        Some(self.task?.1.iter().map(String::as_str).collect())
+    }
+}
+
+/// Number of designs in a shard.
+fn shard(root: &Section, default: usize, faults: &mut Faults) -> Option<usize> {
+    match root.get("shard") {
+        Some(entry) => entry.count(1, LARGEST_SHARD, faults),
+        None => Some(default),
+    }
+}
+
+/// The figures that a plan names; none for all.
+fn figures_of(root: &Section, faults: &mut Faults) -> Option<Vec<String>> {
+    match root.get("figures") {
+        Some(entry) => figures(&entry, faults),
+        None => Some(Vec::new()),
+    }
 }
 
 /// The fields that all designs have; `fields` are those that the task has, if it is known.
@@ -155,11 +198,7 @@ fn figures(entry: &Entry, faults: &mut Faults) -> Option<Vec<String>> {
     };
     let mut found: Vec<String> = Vec::new();
     for item in &items {
-        let pointer = item.line("a JSON pointer, as \"/contrast\"", faults)?;
-        if !pointer.starts_with('/') {
-            item.refuse("a JSON pointer", Some(format!("\"/{}\"", pointer.replace('.', "/"))), faults);
-            return None;
-        }
+        let pointer = pointer(item, faults)?;
         if found.contains(&pointer) {
             item.refuse("each pointer once", None, faults);
             return None;
@@ -167,4 +206,14 @@ fn figures(entry: &Entry, faults: &mut Faults) -> Option<Vec<String>> {
         found.push(pointer);
     }
     Some(found)
+}
+
+/// A JSON pointer to a figure; otherwise a fault.
+fn pointer(entry: &Entry, faults: &mut Faults) -> Option<String> {
+    let pointer = entry.line("a JSON pointer, as \"/contrast\"", faults)?;
+    if pointer.starts_with('/') {
+        return Some(pointer);
+    }
+    entry.refuse("a JSON pointer", Some(format!("\"/{}\"", pointer.replace('.', "/"))), faults);
+    None
 }
