@@ -23,8 +23,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Keys at the top of a plan.
-const KEYS: [&str; 10] =
-    ["format", "name", "task", "surface", "ask", "shard", "axis", "sobol", "design", "figures"];
+const KEYS: [&str; 11] =
+    ["format", "name", "folder", "task", "surface", "ask", "shard", "axis", "sobol", "design", "figures"];
 
 /// Keys that only a plan of a search has at its top.
 const OF_SEARCH: [&str; 3] = ["optimise", "objective", "constraint"];
@@ -50,9 +50,12 @@ pub type PlanTask = (&'static str, Vec<String>);
 pub struct PlanFile {
     /// Name of the plan, from its key `name` or that of its file.
     pub name: String,
+    /// Folder that the surface and all files are named from, itself named from the folder of the plan; `None` for that of the plan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub folder: Option<String>,
     /// Name of the task that every design is given to.
     pub task: String,
-    /// Name of a built-in surface, or path of a file, relative to the folder of the plan.
+    /// Name of a built-in surface, or path of a file, relative to that folder.
     pub surface: String,
     /// Fields of the task's request that all designs have, in SI units.
     pub ask: BTreeMap<String, Value>,
@@ -113,10 +116,12 @@ pub fn load_plan(path: impl AsRef<Path>, tasks: &[PlanTask]) -> Result<PlanFile,
     Ok(parse_plan(&read_text_up_to(path, LARGEST_PLAN)?, &path.display().to_string(), tasks)?)
 }
 
-/// The surface that the plan in a file names, whatever else the file says; `None` where that cannot be told.
-pub fn plan_surface(path: impl AsRef<Path>) -> Option<String> {
+/// The surface that the plan in a file names, and the folder that it is named from if the plan says so, whatever else the file says;
+/// `None` where that cannot be told.
+pub fn plan_surface(path: impl AsRef<Path>) -> Option<(String, Option<String>)> {
     let table: toml::Table = read_text_up_to(path.as_ref(), LARGEST_PLAN).ok()?.parse().ok()?;
-    table.get("surface")?.as_str().map(str::to_owned)
+    let text = |key: &str| table.get(key)?.as_str().map(str::to_owned);
+    Some((text("surface")?, text("folder")))
 }
 
 fn read(root: &Section, name: Option<String>, tasks: &[PlanTask], faults: &mut Faults) -> Option<PlanFile> {
@@ -126,6 +131,7 @@ fn read(root: &Section, name: Option<String>, tasks: &[PlanTask], faults: &mut F
     let figures = figures_of(root, faults);
     Some(PlanFile {
         name: name?,
+        folder: given.folder?,
         task: given.task?.0.to_owned(),
         surface: given.surface?,
         ask: given.ask?,
@@ -137,6 +143,7 @@ fn read(root: &Section, name: Option<String>, tasks: &[PlanTask], faults: &mut F
 
 /// What plans of both kinds say of the task that designs are given to; what has a fault is missing.
 struct Given<'t> {
+    folder: Option<Option<String>>,
     task: Option<&'t PlanTask>,
     surface: Option<String>,
     ask: Option<BTreeMap<String, Value>>,
@@ -147,10 +154,14 @@ impl<'t> Given<'t> {
         let choices: Vec<(&'static str, &PlanTask)> = tasks.iter().map(|task| (task.0, task)).collect();
         let expected = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
         let task = root.require("task", &expected, faults).and_then(|entry| entry.choice(&choices, faults));
+        let folder = match root.get("folder") {
+            Some(entry) => entry.line("a folder relative to that of this file", faults).map(Some),
+            None => Some(None),
+        };
         let expected = "the name of a built-in surface, or of a file relative to this one";
         let surface =
             root.require("surface", expected, faults).and_then(|entry| entry.line(expected, faults));
-        let mut given = Self { task, surface, ask: None };
+        let mut given = Self { folder, task, surface, ask: None };
         given.ask = ask(root, given.fields().as_deref(), faults);
         given
     }

@@ -52,9 +52,12 @@ const SHARD: usize = 1;
 pub struct SearchFile {
     /// Name of the plan, from its key `name` or that of its file.
     pub name: String,
+    /// Folder that the surface and all files are named from, itself named from the folder of the plan; `None` for that of the plan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub folder: Option<String>,
     /// Name of the task that every design is given to.
     pub task: String,
-    /// Name of a built-in surface, or path of a file, relative to the folder of the plan.
+    /// Name of a built-in surface, or path of a file, relative to that folder.
     pub surface: String,
     /// Fields of the task's request that all designs have, in SI units.
     pub ask: BTreeMap<String, Value>,
@@ -171,6 +174,7 @@ fn read(root: &Section, name: Option<String>, tasks: &[PlanTask], faults: &mut F
     }
     Some(SearchFile {
         name: name?,
+        folder: given.folder?,
         task: given.task?.0.to_owned(),
         surface: given.surface?,
         ask: given.ask?,

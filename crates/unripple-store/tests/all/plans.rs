@@ -101,3 +101,12 @@ fn a_design_sets_nothing_twice() {
     assert_eq!((fault.key.as_str(), fault.line, fault.column), ("design[1].surface:sheet", 8, 1));
     assert_eq!(fault.found, "surface:sheet beside surface:sheet.thickness_mm");
 }
+
+#[test]
+fn a_plan_says_from_where_it_names_files() {
+    let designs = axis("ask = \"top_hz\"");
+    assert_eq!(plan(&designs).folder, None);
+    assert_eq!(plan(&format!("folder = \"../..\"\n{designs}")).folder.as_deref(), Some("../.."));
+    let refused = parse_plan(&format!("{HEAD}folder = 2\n{designs}"), "plan.toml", &tasks()).unwrap_err();
+    assert_eq!(refused.faults()[0].key, "folder");
+}

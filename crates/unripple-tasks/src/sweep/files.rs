@@ -1,6 +1,6 @@
 //! Files that the values of a plan name: where they are, and what is in them.
 
-use super::surface::{self, folder};
+use super::surface::{self, origin};
 use super::tasks::tasks;
 use crate::commands::Names;
 use crate::record::{of_bytes, of_path};
@@ -16,7 +16,7 @@ use unripple_store::{
 /// What is known of files that a plan names, each of which is read once by a process.
 #[derive(Clone, Debug)]
 pub(super) struct Files {
-    /// The folder of the plan.
+    /// The folder that the plan names files from.
     folder: PathBuf,
     /// The folder of its surface file; `None` of a surface that can name no file.
     ground: Option<PathBuf>,
@@ -32,7 +32,7 @@ struct Known {
 }
 
 impl Files {
-    /// Nothing is known yet of the files that a plan in this folder names.
+    /// Nothing is known yet of the files that a plan names from this folder.
     pub fn of(folder: &Path, ground: Option<&Path>) -> Self {
         Self { folder: folder.into(), ground: ground.map(Path::to_path_buf), known: Arc::default() }
     }
@@ -145,19 +145,26 @@ pub(super) fn asked(file: &PlanFile) -> Vec<(Varied, &Value)> {
 }
 
 /// Files that the plan in a file reads besides its own; of one with faults, which its reader tells, those of its surface.
-pub(super) fn reads(plan: &Path) -> Vec<PathBuf> {
-    let folder = folder(plan);
-    let Ok(file) = load_plan(plan, &tasks()) else {
-        return plan_surface(plan).map_or_else(Vec::new, |surface| surface::reads(folder, &surface));
-    };
-    let mut found = surface::reads(folder, &file.surface);
+pub(crate) fn reads(plan: &Path) -> Vec<PathBuf> {
+    match load_plan(plan, &tasks()) {
+        Ok(file) => reads_of(plan, &file),
+        Err(_) => plan_surface(plan).map_or_else(Vec::new, |(surface, folder)| {
+            surface::reads(&origin(plan, folder.as_deref()), &surface)
+        }),
+    }
+}
+
+/// As [`reads`], of a plan that has been read.
+pub(crate) fn reads_of(plan: &Path, file: &PlanFile) -> Vec<PathBuf> {
+    let folder = origin(plan, file.folder.as_deref());
+    let mut found = surface::reads(&folder, &file.surface);
     let ground = found.first().filter(|path| path.is_file()).map(|path| surface::folder(path).to_path_buf());
-    let fields = asked(&file);
+    let fields = asked(file);
     let all = fields.iter().map(|(varied, value)| (varied, *value)).chain(values(&file.designs));
     let mut seen = BTreeSet::new();
     for (varied, value) in all {
         let from = match varied {
-            Varied::Ask(_) => Some(folder),
+            Varied::Ask(_) => Some(folder.as_path()),
             Varied::Surface(_) => ground.as_deref(),
         };
         let named = from.into_iter().flat_map(|from| texts(value).into_iter().map(move |text| (from, text)));

@@ -3,7 +3,7 @@
 use super::design::{Design, canonical};
 use super::files::{self, Files};
 use super::flat::is_of_the_clock;
-use super::surface::{Ground, folder};
+use super::surface::{Ground, origin};
 use super::tasks::tasks;
 use super::values;
 use crate::commands::{Command, find, unknown};
@@ -72,8 +72,9 @@ impl Plan {
                 "{shown}: figures: {expected}, found `{pointer}`, a time by the clock or a record of the run"
             )));
         }
-        let (ground, surface_sha256) = Ground::of(folder(path), &file.surface)?;
-        let files = Files::of(folder(path), ground.folder());
+        let origin = origin(path, file.folder.as_deref());
+        let (ground, surface_sha256) = Ground::of(&origin, &file.surface)?;
+        let files = Files::of(&origin, ground.folder());
         let asked = files.named(files::asked(&file).iter().map(|(varied, value)| (varied, *value)));
         let mut named = files.named(files::values(&file.designs).into_iter());
         named.extend(asked.clone());

@@ -143,6 +143,11 @@ pub(super) fn folder(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 
+/// The folder that a plan in a file names its surface and its files from; `named` is the one that the plan says, if it does.
+pub(crate) fn origin(plan: &Path, named: Option<&str>) -> PathBuf {
+    named.map_or_else(|| folder(plan).to_path_buf(), |named| folder(plan).join(named))
+}
+
 /// Files that are read for the surface that a plan in this folder names; none for a built-in surface.
 pub(super) fn reads(folder: &Path, surface: &str) -> Vec<PathBuf> {
     if BUILTINS.iter().any(|builtin| builtin.name == surface) {

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use unripple_store::{BUILTINS, set_keys};
 use unripple_tasks::sweep::{Plan, run};
-use unripple_tasks::{Progress, Record, Silent, SurfaceAsk, respond};
+use unripple_tasks::{Progress, Record, Silent, SurfaceAsk, respond, sweep};
 
 /// Text of the paper's film by another name, with a narrow band, whose modes are few, and a tension in N/m.
 fn film(name: &str, tension: f64) -> String {
@@ -67,6 +67,29 @@ fn files_that_a_request_names_are_relative_to_the_plan_and_a_change_is_noticed()
     assert_eq!(before.design(1).hash, after.design(1).hash);
     let refused = run(&ask, &mut Silent).unwrap_err().to_string();
     assert!(refused.contains("expected rows of this plan"), "{refused}");
+}
+
+#[test]
+fn a_plan_elsewhere_says_from_where_it_names_files() {
+    let scratch = Scratch::new("sweep-elsewhere");
+    fs::write(scratch.0.join("first.toml"), film("first", 250.0)).unwrap();
+    fs::write(scratch.0.join("other.toml"), film("other", 150.0)).unwrap();
+    let here = Plan::open(&scratch.ask(COMPARE, "out").plan).unwrap();
+    let elsewhere = scratch.0.join("some/plans");
+    fs::create_dir_all(&elsewhere).unwrap();
+    let file = elsewhere.join("plan.toml");
+    fs::write(&file, format!("folder = \"../..\"\n{COMPARE}")).unwrap();
+    let there = Plan::open(&file).unwrap();
+    assert_eq!((there.hash(), there.design(0).hash), (here.hash(), here.design(0).hash));
+    let ask = sweep::Ask { plan: file.clone(), ..sweep::Ask::default() };
+    let read: Vec<_> = Record::of(&ask).unwrap().files.into_iter().map(|file| file.path).collect();
+    let named = ["plan.toml", "../../first.toml", "../../other.toml"];
+    assert_eq!(read, named.map(|name| elsewhere.join(name)));
+    // Also of a plan with faults, whose reader tells them.
+    fs::write(&file, format!("folder = \"../..\"\nshard = 0\n{}", COMPARE.replace("shard = 1\n", "")))
+        .unwrap();
+    let read: Vec<_> = Record::of(&ask).unwrap().files.into_iter().map(|file| file.path).collect();
+    assert_eq!(read, ["plan.toml", "../../first.toml"].map(|name| elsewhere.join(name)));
 }
 
 #[test]
