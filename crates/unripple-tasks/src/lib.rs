@@ -57,6 +57,7 @@ pub mod materials;
 pub mod modes;
 mod names;
 mod numbers;
+pub mod optimise;
 pub mod own;
 pub mod place;
 pub mod play;

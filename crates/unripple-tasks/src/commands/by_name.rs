@@ -3,13 +3,14 @@
 use super::done::{Done, default_of, perform};
 use super::list::{TASKS, find};
 use crate::record::{Request, asked};
-use crate::{Progress, TaskError, rerun, sweep};
+use crate::{Progress, TaskError, optimise, rerun, sweep};
 use serde_json::Value;
 
-/// Names of the commands that [`run`] performs: all tasks, and `sweep` and `rerun`, which perform them.
-pub const COMMANDS: [&str; TASKS.len() + 2] = {
-    let mut names = [rerun::Ask::COMMAND; TASKS.len() + 2];
+/// Names of the commands that [`run`] performs: all tasks, and `sweep`, `optimise` and `rerun`, which perform them.
+pub const COMMANDS: [&str; TASKS.len() + 3] = {
+    let mut names = [rerun::Ask::COMMAND; TASKS.len() + 3];
     names[TASKS.len()] = sweep::Ask::COMMAND;
+    names[TASKS.len() + 1] = optimise::Ask::COMMAND;
     let mut at = 0;
     while at < TASKS.len() {
         names[at] = TASKS[at].name;
@@ -26,6 +27,7 @@ pub fn default_ask(command: &str) -> Result<Value, TaskError> {
     match find(command) {
         Some(task) => (task.default_ask)(),
         None if command == sweep::Ask::COMMAND => default_of::<sweep::Ask>(),
+        None if command == optimise::Ask::COMMAND => default_of::<optimise::Ask>(),
         None if command == rerun::Ask::COMMAND => default_of::<rerun::Ask>(),
         None => Err(unknown(command, &COMMANDS)),
     }
@@ -50,6 +52,7 @@ pub fn run(command: &str, ask: Value, progress: &mut dyn Progress) -> Result<Don
     match find(command) {
         Some(task) => (task.run)(ask, progress),
         None if command == sweep::Ask::COMMAND => perform(ask, sweep::run, progress),
+        None if command == optimise::Ask::COMMAND => perform(ask, optimise::run, progress),
         None if command == rerun::Ask::COMMAND => {
             Done::of(&rerun::run(&asked::<rerun::Ask>(ask)?, progress)?, None)
         }

@@ -3,7 +3,7 @@
 use super::{Ask, Report};
 use crate::commands::{again, find};
 use crate::record::{Record, Request};
-use crate::{Progress, TaskError, go_on, sweep};
+use crate::{Progress, TaskError, go_on, optimise, sweep};
 use serde::Deserialize;
 
 /// The part of a report that is read: the record of its run.
@@ -44,6 +44,9 @@ pub fn repeat(record: &Record, ask: &Ask, progress: &mut dyn Progress) -> Result
         Some(task) => Report::of((task.again)(record, ask.output.clone(), progress)?),
         None if record.command == sweep::Ask::COMMAND => {
             Report::of(again(record, ask.output.clone(), sweep::run, progress)?)
+        }
+        None if record.command == optimise::Ask::COMMAND => {
+            Report::of(again(record, ask.output.clone(), optimise::run, progress)?)
         }
         None => Err(TaskError::Input(format!(
             "{}: expected a command that can be repeated, found `{}`",

@@ -94,7 +94,7 @@ fn put(ask: &mut Value, path: &str, value: Value) -> Result<(), TaskError> {
 }
 
 /// A value as a surface file writes it.
-fn written(value: &Value) -> String {
+pub(crate) fn written(value: &Value) -> String {
     match value {
         Value::Array(list) => format!("[{}]", list.iter().map(written).collect::<Vec<_>>().join(", ")),
         Value::Object(map) => {
@@ -108,7 +108,7 @@ fn written(value: &Value) -> String {
 }
 
 /// JSON text that is the same for equal values: keys in order, no spaces, whole numbers without a fraction.
-pub(super) fn canonical(value: &Value) -> String {
+pub(crate) fn canonical(value: &Value) -> String {
     match value {
         Value::Object(map) => {
             let sorted: BTreeMap<&String, &Value> = map.iter().collect();

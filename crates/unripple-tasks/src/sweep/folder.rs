@@ -43,20 +43,7 @@ impl<'p> Folder<'p> {
     /// # Errors
     /// [`TaskError::Input`] if the folder is of another plan; [`TaskError::Work`] if other things are in it or it cannot be written to.
     pub fn open(plan: &'p Plan, path: &Path) -> Result<Self, TaskError> {
-        fs::create_dir_all(path).map_err(failed(path))?;
-        let kept = path.join(KEPT);
-        loop {
-            match fs::read_to_string(&kept) {
-                Ok(text) => break is_of(plan, path, &text)?,
-                Err(error) if error.kind() != ErrorKind::NotFound => return Err(failed(&kept)(error)),
-                // Another process may have begun it meanwhile.
-                Err(_) => match guest(path)? {
-                    Some(_) if kept.exists() => {}
-                    Some(found) => return Err(occupied(path, found)),
-                    None => begin(plan, &kept)?,
-                },
-            }
-        }
+        opened(path, plan.hash(), &|kept| begin(plan, kept))?;
         let parts = path.join(PARTS);
         fs::create_dir_all(&parts).map_err(failed(&parts))?;
         [path, parts.as_path(), path.join(ROWS).as_path()].into_iter().for_each(remove_left);
@@ -233,7 +220,7 @@ fn rows_of(plan: &Plan, path: &Path, text: &str, designs: Range<usize>) -> Resul
 }
 
 /// Turns an error of the system into one that says what could not be written.
-fn failed(path: &Path) -> impl Fn(std::io::Error) -> TaskError + use<> {
+pub(crate) fn failed(path: &Path) -> impl Fn(std::io::Error) -> TaskError + use<> {
     let path = path.to_path_buf();
     move |reason| StoreError::Write { path: path.clone(), reason }.into()
 }
@@ -252,21 +239,46 @@ fn begin(plan: &Plan, path: &Path) -> Result<(), TaskError> {
     Ok(write_durably(path, |file| writeln!(file, "{text}"))?)
 }
 
+/// Opens the folder of a plan by its SHA-256, or begins it where nothing is yet: `begin` writes the file that makes a folder that of a
+/// plan.
+///
+/// # Errors
+/// [`TaskError::Input`] if the folder is of another plan; [`TaskError::Work`] if other things are in it or it cannot be written to.
+pub(crate) fn opened(
+    path: &Path,
+    sha256: &str,
+    begin: &dyn Fn(&Path) -> Result<(), TaskError>,
+) -> Result<(), TaskError> {
+    fs::create_dir_all(path).map_err(failed(path))?;
+    let kept = path.join(KEPT);
+    loop {
+        match fs::read_to_string(&kept) {
+            Ok(text) => return is_of(path, sha256, &text),
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(failed(&kept)(error)),
+            // Another process may have begun it meanwhile.
+            Err(_) => match guest(path)? {
+                Some(_) if kept.exists() => {}
+                Some(found) => return Err(occupied(path, found)),
+                None => begin(&kept)?,
+            },
+        }
+    }
+}
+
 /// Refuses a folder whose rows are those of another plan.
-fn is_of(plan: &Plan, path: &Path, text: &str) -> Result<(), TaskError> {
+fn is_of(path: &Path, sha256: &str, text: &str) -> Result<(), TaskError> {
     let kept: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
     match kept["sha256"].as_str() {
-        Some(found) if found == plan.hash() => Ok(()),
+        Some(found) if found == sha256 => Ok(()),
         found => Err(TaskError::Input(format!(
-            "{}: expected rows of this plan on this surface (SHA-256 {}), found those of another ({}); name another folder",
+            "{}: expected rows of this plan on this surface (SHA-256 {sha256}), found those of another ({}); name another folder",
             path.display(),
-            plan.hash(),
             found.unwrap_or("unknown")
         ))),
     }
 }
 
-/// Something in a folder that is no beginning of a sweep; `None` if nothing is there.
+/// Something in a folder that is not what a plan begins with; `None` if nothing is there.
 fn guest(path: &Path) -> Result<Option<String>, TaskError> {
     let hidden = format!(".{KEPT}.");
     for entry in fs::read_dir(path).map_err(failed(path))? {
@@ -282,6 +294,6 @@ fn guest(path: &Path) -> Result<Option<String>, TaskError> {
 }
 
 fn occupied(path: &Path, found: String) -> TaskError {
-    let expected = "no such folder yet, an empty one, or that of the same sweep";
+    let expected = "no such folder yet, an empty one, or that of the same plan";
     StoreError::Occupied { path: path.into(), expected, found: format!("a folder with `{found}`") }.into()
 }

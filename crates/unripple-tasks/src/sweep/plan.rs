@@ -63,7 +63,14 @@ impl Plan {
     /// [`TaskError::Faults`] with all faults of the file; [`TaskError::Input`] of a surface that is not there, of keys that surface files do not
     /// have, of fields with values of the wrong kind, and of figures that depend on the clock.
     pub fn open(path: &Path) -> Result<Self, TaskError> {
-        let file = load_plan(path, &tasks())?;
+        Self::of(path, load_plan(path, &tasks())?)
+    }
+
+    /// The plan that was read from a file, with its surface.
+    ///
+    /// # Errors
+    /// Those of [`open`](Self::open) but for faults of the file.
+    pub(crate) fn of(path: &Path, file: PlanFile) -> Result<Self, TaskError> {
         let shown = path.display();
         let varies = |pointer: &&String| is_of_the_clock(pointer) || pointer.split('/').nth(1) == Some("run");
         if let Some(pointer) = file.figures.iter().find(varies) {
@@ -201,8 +208,28 @@ impl Plan {
     }
 
     /// SHA-256 of the surface as the plan names it, in hexadecimal digits.
-    pub(super) fn surface_sha256(&self) -> &str {
+    pub(crate) fn surface_sha256(&self) -> &str {
         &self.surface_sha256
+    }
+
+    /// The surface with keys of its file set to other values, which are written as in the file.
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] of a path that no key can have; [`TaskError::Faults`] of a surface with SVG files that has faults.
+    pub(crate) fn surface_with(&self, keys: Vec<(String, String)>) -> Result<SurfaceAsk, TaskError> {
+        self.ground.with(keys)
+    }
+
+    /// SHA-256, in hexadecimal digits, of each file that the plan names, by `ask:NAME` or `surface:NAME`.
+    pub(crate) fn named(&self) -> Map<String, Value> {
+        let mut named = self.files.named(files::values(&self.file.designs).into_iter());
+        named.extend(self.asked.clone());
+        named
+    }
+
+    /// The same of the files that all designs name.
+    pub(crate) fn asked(&self) -> &Map<String, Value> {
+        &self.asked
     }
 
     /// The plan as its file has it.

@@ -113,7 +113,7 @@ impl Report {
 }
 
 /// A number in at most six digits.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let rounded = format!("{value:.5e}").parse().unwrap_or(value);
     match rounded.abs() {
         0.0 => "0".into(),
@@ -123,7 +123,7 @@ fn short(value: f64) -> String {
 }
 
 /// The values of a design, as `name = value`.
-fn written(values: &[Named]) -> String {
+pub(crate) fn written(values: &[Named]) -> String {
     values.iter().map(|Named { name, value }| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
 }
 

@@ -6,6 +6,7 @@ use super::tally::Tally;
 use super::{Ask, Piece, Plan, Report, Row, Workers, figure, supervised, table};
 use crate::figures::Columns;
 use crate::{Progress, Record, TaskError, figures, go_on, source};
+use std::collections::HashMap;
 use std::path::Path;
 use unripple::act::Note;
 use unripple_store::write_file;
@@ -77,8 +78,7 @@ pub fn run_with(
     let folder = Folder::open(&plan, output(ask)?)?;
     source::keeping(|| match (ask.shard, workers) {
         (Some(shard), _) => one(&folder, shard, progress),
-        (None, Some(workers)) => supervised::run(workers, &folder, progress),
-        (None, None) => all(&folder, progress),
+        (None, workers) => all(&folder, workers, "designs", progress),
     })?;
     let missing = folder.missing()?;
     let mut report = match missing.is_empty() {
@@ -136,15 +136,57 @@ fn one(folder: &Folder, shard: usize, progress: &mut dyn Progress) -> Result<(),
     if folder.has(shard) { Ok(()) } else { folder.compute(shard, progress) }
 }
 
-/// Computes all missing shards, one after the other.
-fn all(folder: &Folder, progress: &mut dyn Progress) -> Result<(), TaskError> {
+/// Computes all missing shards, with `what` as the name of that stage: by processes, or here one after the other.
+fn all(
+    folder: &Folder,
+    workers: Option<&Workers<'_>>,
+    what: &str,
+    progress: &mut dyn Progress,
+) -> Result<(), TaskError> {
+    progress.stage(what);
+    if let Some(workers) = workers {
+        return supervised::run(workers, folder, progress);
+    }
     let (missing, shards) = (folder.missing()?, folder.plan.shards());
-    progress.stage("designs");
     for (at, shard) in missing.iter().enumerate() {
         progress.done((shards - missing.len() + at) as f64 / shards as f64);
         one(folder, *shard, progress)?;
     }
     Ok(())
+}
+
+/// The rows of all designs of a plan, in order, those that its folder does not have computed first; no table is written. Rows that are
+/// `known` by their hash are taken as they are, unless another version computed them. `what` is the name of the stage. To be called within
+/// [`source::keeping`].
+///
+/// # Errors
+/// Those of [`run`], but for those of the plan.
+pub(crate) fn rows(
+    plan: &Plan,
+    path: &Path,
+    known: &HashMap<String, Row>,
+    workers: Option<&Workers<'_>>,
+    what: &str,
+    progress: &mut dyn Progress,
+) -> Result<Vec<Row>, TaskError> {
+    let folder = Folder::open(plan, path)?;
+    let missing = folder.missing()?;
+    for index in missing.iter().flat_map(|shard| plan.shard(*shard)) {
+        let design = plan.design(index);
+        let row = known.get(&design.hash).map(|row| Row { index, ..row.clone() });
+        if let Some(row) = row.filter(|row| row.is_of(&design)) {
+            folder.put_row(&row)?;
+        }
+    }
+    if !missing.is_empty() {
+        all(&folder, workers, what, progress)?;
+    }
+    let mut rows = Vec::new();
+    folder.each(&mut |row| {
+        rows.push(row);
+        Ok(())
+    })?;
+    Ok(rows)
 }
 
 /// Writes the table of all rows, and figures unless they are not wanted.

@@ -14,7 +14,6 @@ const MOST_SHARDS: usize = 2000;
 /// # Errors
 /// [`TaskError::Cancelled`]; [`TaskError::Work`] of a process that cannot be started, or that ends with an error of its own.
 pub(super) fn run(workers: &Workers, folder: &Folder, progress: &mut dyn Progress) -> Result<(), TaskError> {
-    progress.stage("designs");
     loop {
         let missing = folder.missing()?;
         if missing.is_empty() {

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use unripple_store::write_durably;
 
 /// Name of the table in the folder.
-pub(super) const TABLE: &str = "table.csv";
+pub(crate) const TABLE: &str = "table.csv";
 
 /// Writes the table: a line for each design, in order, with its values, hash and version, its figures, and the error of one that failed. What
 /// is unknown is an empty field.
@@ -47,7 +47,7 @@ fn line(row: &Row, labels: &[String], tally: &Tally) -> String {
 }
 
 /// A field that holds a value.
-fn field(value: &Value) -> String {
+pub(crate) fn field(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(found) => text(found),
@@ -56,7 +56,7 @@ fn field(value: &Value) -> String {
 }
 
 /// A field that holds text; quoted where it has to be.
-fn text(text: &str) -> String {
+pub(crate) fn text(text: &str) -> String {
     match text.contains([',', '"', '\r', '\n']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text.to_owned(),

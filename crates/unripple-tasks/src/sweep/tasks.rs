@@ -11,7 +11,7 @@ const OF_DEVICES: [&str; 3] = ["drift", "doctor", "play"];
 const NOT_SET: [&str; 2] = ["surface", "output"];
 
 /// Tasks that plans may name, with the fields that they may set: tasks of one surface that need neither a device nor a folder.
-pub(super) fn tasks() -> Vec<PlanTask> {
+pub(crate) fn tasks() -> Vec<PlanTask> {
     let task = |task: &Command| {
         let Ok(Value::Object(ask)) = (task.default_ask)() else { return None };
         let writes = ask.get("output").is_some_and(|output| !output.is_null());

@@ -42,7 +42,7 @@ fn of_grid(axes: &[Axis], index: usize) -> Vec<(Varied, Value)> {
 }
 
 /// The value of an axis at a step, counted from 0.
-pub(super) fn step(values: &AxisValues, at: usize) -> Value {
+pub(crate) fn step(values: &AxisValues, at: usize) -> Value {
     match values {
         AxisValues::List(list) => list.get(at).cloned().unwrap_or_default(),
         AxisValues::Range { from, to, steps, log, whole } => {

@@ -20,6 +20,7 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<modes::Ask>();
     whole::<materials::Ask>();
     whole::<place::Ask>();
+    whole::<sensors::Ask>();
     whole::<focus::Ask>();
     whole::<waveform::Ask>();
     whole::<stroke::Ask>();
@@ -34,8 +35,9 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<devices::Ask>();
     whole::<play::Ask>();
     whole::<sweep::Ask>();
+    whole::<optimise::Ask>();
     whole::<rerun::Ask>();
-    assert_eq!(commands::COMMANDS.len(), 20);
+    assert_eq!(commands::COMMANDS.len(), 22);
 }
 
 #[test]

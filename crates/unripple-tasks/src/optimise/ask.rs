@@ -1,0 +1,41 @@
+//! Options of the task `optimise`.
+
+use super::search::reads;
+use crate::TaskError;
+use crate::record::{Request, Visit};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Which plan to search by, and where its designs go.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ask {
+    /// File of the plan, in TOML.
+    pub plan: PathBuf,
+    /// Folder for designs, table, report and figures; what is there of the same plan is neither asked for nor computed again. Always
+    /// needed.
+    pub output: Option<PathBuf>,
+    /// Compute the designs that have been asked for, and ask for no others.
+    pub no_ask: bool,
+    /// Write no figures.
+    pub no_figures: bool,
+    /// Width of the figures in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default each figure has its own width.
+    pub columns: Option<usize>,
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "optimise";
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        if self.plan.as_os_str().is_empty() {
+            return Ok(());
+        }
+        visit(&mut self.plan)?;
+        // They are named in the plan, which stays as it is.
+        reads(&self.plan).iter_mut().try_for_each(visit)
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output;
+    }
+}
