@@ -163,6 +163,10 @@ def test_a_surface_file_is_sent_to_workers(cluster: Cluster, folder: Path) -> No
     cluster.worker()
     with cluster.client() as client:
         ur.sweep("plans/plan.toml", "out", client=client, shared=False, no_figures=True)
+        # A plan elsewhere that says from where it names files.
+        (folder / "made/deep").mkdir(parents=True)
+        (folder / "made/deep/plan.toml").write_text(f'folder = "../../plans"\n{text}')
+        ur.sweep("made/deep/plan.toml", "made/out", client=client, shared=False, no_figures=True)
         # What fails on workers is told here; a folder of something else is refused here.
         (folder / "other/folder").mkdir(parents=True)
         with pytest.raises(ur.WorkError, match="found a folder with `folder`"):
@@ -170,7 +174,8 @@ def test_a_surface_file_is_sent_to_workers(cluster: Cluster, folder: Path) -> No
         (folder / "plans/away.toml").write_text(text.replace("../film.toml", str(folder / "film.toml")))
         with pytest.raises(ur.InputError, match="a path from the plan's folder"):
             ur.sweep("plans/away.toml", "away", client=client, shared=False)
-    assert (folder / "out/table.csv").read_bytes() == (folder / "serial/table.csv").read_bytes()
+    for out in ("out", "made/out"):
+        assert (folder / out / "table.csv").read_bytes() == (folder / "serial/table.csv").read_bytes()
 
 
 def test_files_that_a_request_names_are_sent_to_workers(cluster: Cluster, folder: Path) -> None:

@@ -6,8 +6,10 @@ import contextlib
 import hashlib
 import itertools
 import os
+import re
 import tempfile
 import time
+import tomllib
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
@@ -148,15 +150,27 @@ class _Sent:
 
 
 def _files(plan: str, counted: Report) -> dict[str, bytes]:
-    """Return the files that a plan is read from by their paths from its folder, its own first."""
+    """Return the files that a plan is read from by their paths from its folder, its own first, and the folder that it names them from."""
     paths = [file.path for file in counted.run.files]
     text = Path(plan).read_text(encoding="utf-8")
+    folder = _folder(text)
     # Libraries, and files by the whole of their paths, which would not be where workers put them.
-    away = [path for path in paths[1:] if os.path.isdir(path) or path in text]
+    away = [path for path in paths[1:] if os.path.isdir(path) or path in text or os.path.isabs(folder)]
     if away or os.path.isabs(counted.surface):
         expected = "built-in surfaces, or files by a path from the plan's folder, which workers are sent"
         raise InputError(f"{plan}: expected {expected}, found {[*away, counted.surface][0]}")
-    return {os.path.relpath(path, os.path.dirname(plan)): Path(path).read_bytes() for path in paths}
+    files = {os.path.relpath(path, os.path.dirname(plan)): Path(path).read_bytes() for path in paths}
+    # A folder, through which paths may lead that go up from it.
+    return files if os.path.isabs(folder) else {**files, f"{folder}/": b""}
+
+
+def _folder(text: str) -> str:
+    """Return the folder that a plan names files from, relative to its own."""
+    # Keys of the plan itself come before its tables, of which there may be many.
+    for part in (re.split(r"^\s*\[", text, maxsplit=1, flags=re.MULTILINE)[0], text):
+        with contextlib.suppress(tomllib.TOMLDecodeError):
+            return str(tomllib.loads(part).get("folder", "."))
+    return "."
 
 
 def _write(path: Path, content: bytes) -> None:
@@ -193,8 +207,9 @@ def _part(files: dict[str, bytes], shard: int, *told: Any) -> tuple[bytes, bytes
         base = Path(folder, *["down"] * max(path.count("..") for path in files), "plan")
         for name, content in files.items():
             path = Path(os.path.normpath(base / name))
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content)
+            (path if name.endswith("/") else path.parent).mkdir(parents=True, exist_ok=True)
+            if not name.endswith("/"):
+                path.write_bytes(content)
         output = Path(folder, "output")
         _shard(str(base / next(iter(files))), str(output), shard, *told)
         return (output / "plan.json").read_bytes(), (output / f"parts/{shard}.jsonl").read_bytes()
