@@ -21,7 +21,7 @@ _NO_TASKS = {"view", "cache", "completions", "man", "help"}
 
 #: Options of the command line that its command refuses, those of other targets than points and shapes; and the number of processes, since
 #: Python's own process computes.
-_REFUSED = {"compare": {"waveform", "silent", "path", "speed_mm_s", "level_mm_s"}, "sweep": {"jobs"}}
+_REFUSED = {"compare": {"waveform", "silent", "path", "speed_mm_s", "level_mm_s"}, "sweep": {"jobs"}, "optimise": {"jobs"}}
 
 #: The tasks that the command line has as one.
 _OF_FOCUS = ("focus", "waveform", "stroke")

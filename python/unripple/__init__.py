@@ -23,6 +23,7 @@ from unripple._player import Felt, Player
 from unripple._progress import set_progress, set_threads
 from unripple._report import Report
 from unripple._responses import Responses
+from unripple._searching import optimise
 from unripple._surface import Surface
 from unripple._tasks import (
     check,
@@ -83,6 +84,7 @@ __all__ = [
     "materials",
     "modes",
     "open",
+    "optimise",
     "place",
     "play",
     "reproduce",

@@ -297,6 +297,7 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         Option("drift_percent", "drift", percent),
     ),
     "sweep": (*_same(path, "plan"), *_same(count, "shard"), *_same(flag, "count"), *_FIGURES),
+    "optimise": (*_same(path, "plan"), *_same(flag, "no_ask"), *_FIGURES),
     "reproduce": (*_same(path, "output"), *_same(count, "placements")),
     "rerun": _same(path, "report", "output"),
 }

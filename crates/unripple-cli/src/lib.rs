@@ -18,6 +18,7 @@ mod config;
 mod error;
 mod focus;
 mod interrupt;
+mod optimise;
 mod options;
 mod output;
 mod play;
@@ -102,6 +103,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Compare(options) => output::perform(json, &options.ask(common)?, compare::run),
         Command::Field(options) => output::perform(json, &options.ask(common)?, field::run),
         Command::Sweep(options) => sweep::run(options, common),
+        Command::Optimise(options) => optimise::run(options, common),
         Command::Play(options) => play::run(options, common),
         Command::View(options) => view::run(options, common),
         Command::Materials(options) => output::perform(json, &options.ask(common)?, materials::run),

@@ -69,6 +69,11 @@ pub const SWEEP: &str = "Examples:
   unripple sweep plan.toml --jobs 4 -o swept
   unripple sweep plan.toml --shard 7 -o swept";
 
+/// For `optimise`: a search, and what can be computed of it without Python.
+pub const OPTIMISE: &str = "Examples:
+  unripple optimise plan.toml --jobs 4 -o searched
+  unripple optimise plan.toml --no-ask -o searched";
+
 /// For `field`: the drive that `focus` wrote.
 pub const FIELD: &str = "Examples:
   unripple field hudin-2012 --drive out/drive.wav

@@ -11,6 +11,7 @@ mod fit;
 mod focus;
 mod heading;
 mod names;
+mod optimise;
 mod place;
 mod play;
 mod rerun;
@@ -32,6 +33,7 @@ pub use figures::FigureOptions;
 pub use fit::FitOptions;
 pub use focus::{FocusOptions, TargetOptions};
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
+pub use optimise::OptimiseOptions;
 pub use place::PlaceOptions;
 pub use play::{DoctorOptions, PlayOptions};
 pub use rerun::RerunOptions;
@@ -109,6 +111,8 @@ pub enum Command {
     /// Run a command for many designs (a grid, Sobol points or a list of values of keys and options), by several processes, with the
     /// results in one table; continues after any interruption.
     Sweep(SweepOptions),
+    /// Search the designs whose figures are most or least, or the best trade-offs between several figures, with one table of all designs.
+    Optimise(OptimiseOptions),
     /// Measure impulse responses through a device, as a library that `focus` and `field` accept in place of a surface.
     Calibrate(CalibrateOptions),
     /// Export a library of responses as WAV files or as one SOFA file.

@@ -1,0 +1,41 @@
+//! Options of `unripple optimise`.
+
+use super::{FigureOptions, examples, heading};
+use crate::common::Common;
+use crate::error::CliError;
+use clap::Args;
+use std::path::PathBuf;
+use unripple_tasks::optimise::Ask;
+
+/// Options of `optimise`.
+#[derive(Debug, Args)]
+#[command(after_help = examples::OPTIMISE)]
+pub struct OptimiseOptions {
+    /// The plan: a TOML file that names a task, a surface, the unknowns, and the figures that are to be most or least.
+    pub plan: PathBuf,
+    /// Number of processes that compute at a time, each its own designs.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub jobs: usize,
+    /// Compute the designs that have been asked for, and ask for no others: that takes the Python package, this does not.
+    #[arg(long)]
+    pub no_ask: bool,
+    #[command(flatten)]
+    pub figures: FigureOptions,
+    /// Folder for designs, table, report and picture. What is there of the same plan is neither asked for nor computed again.
+    #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
+    pub output: PathBuf,
+}
+
+impl OptimiseOptions {
+    /// Converts the options to a request.
+    pub fn ask(&self, common: &Common) -> Result<Ask, CliError> {
+        common.without_surface()?;
+        Ok(Ask {
+            plan: self.plan.clone(),
+            output: Some(self.output.clone()),
+            no_ask: self.no_ask,
+            no_figures: self.figures.no_figures,
+            columns: self.figures.columns,
+        })
+    }
+}
