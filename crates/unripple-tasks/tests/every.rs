@@ -9,6 +9,8 @@ mod curves;
 mod given;
 #[path = "every/reach.rs"]
 mod reach;
+#[path = "every/optimise.rs"]
+mod searches;
 #[path = "every/sweep.rs"]
 mod sweeps;
 #[path = "every/sweep_ended.rs"]
@@ -90,6 +92,7 @@ fn asks_go_through_json() {
         ..waveform::Ask::default()
     });
     through_json(&stroke::Ask::default());
+    through_json(&optimise::Ask { no_ask: true, ..optimise::Ask::default() });
     through_json(&sweep::Ask { shard: Some(3), output: Some("out".into()), ..sweep::Ask::default() });
 }
 
@@ -129,6 +132,7 @@ fn a_cancelled_task_leaves_nothing() {
         waveform::run,
     );
     does_nothing(&stroke::Ask { output: place.clone(), ..stroke::Ask::default() }, stroke::run);
+    does_nothing(&optimise::Ask { output: place.clone(), ..optimise::Ask::default() }, optimise::run);
     does_nothing(&sweep::Ask { output: place.clone(), ..sweep::Ask::default() }, sweep::run);
     let drive = field::DriveAsk::Samples { channels: vec![vec![1.0; 64]; 8], rate_hz: 48e3 };
     does_nothing(&field::Ask { drive, output: place, ..field::Ask::default() }, field::run);

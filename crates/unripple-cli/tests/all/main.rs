@@ -29,6 +29,7 @@ mod library;
 mod main_job;
 mod memory;
 mod no_figures;
+mod optimise;
 mod ownership;
 mod place;
 mod progress;

@@ -10,7 +10,7 @@ use unripple_tasks::sweep::{Plan, run};
 use unripple_tasks::{Progress, Record, Silent, SurfaceAsk, respond, sweep};
 
 /// Text of the paper's film by another name, with a narrow band, whose modes are few, and a tension in N/m.
-fn film(name: &str, tension: f64) -> String {
+pub(crate) fn film(name: &str, tension: f64) -> String {
     let text = BUILTINS.iter().find(|builtin| builtin.name == "hudin-2012").unwrap().text;
     let keys = [
         ("name", name.to_owned()),
