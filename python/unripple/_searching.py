@@ -19,20 +19,7 @@ if TYPE_CHECKING:
     import subprocess
     from typing import Unpack
 
-    import distributed
-
-    from unripple import _types
-
-    class OptimiseOptions(_types.CallOptions, total=False):
-        """Options of `optimise`."""
-
-        jobs: int | None
-        no_ask: bool | None
-        no_figures: bool | None
-        columns: int | None
-        client: distributed.Client | None
-        shared: bool | None
-
+    from unripple import _plan_types, _types
 
 #: Options that only say who computes.
 _WHO = ("client", "shared", "jobs")
@@ -41,7 +28,7 @@ _WHO = ("client", "shared", "jobs")
 _AT_ONCE = 2000
 
 
-def optimise(plan: _types.Path, output: _types.Path, **options: Unpack[OptimiseOptions]) -> Report:
+def optimise(plan: _types.Path, output: _types.Path, **options: Unpack[_plan_types.OptimiseOptions]) -> Report:
     """Search the designs whose figures are most or least, or the best trade-offs between several figures.
 
     The designs of one generation after the other are asked for by an optimiser, and computed: in this process, by `jobs` processes, or with

@@ -11,7 +11,7 @@ from unripple._report import Report
 if TYPE_CHECKING:
     from typing import Unpack
 
-    from unripple import _types
+    from unripple import _plan_types, _types
 
 
 def run(command: str, **options: Any) -> Report:
@@ -305,7 +305,7 @@ def reproduce(output: _types.Path | None = None, **options: Unpack[_types.Reprod
 
 
 def sweep(
-    plan: _types.Path, output: _types.Path | None = None, **options: Unpack[_types.SweepOptions]
+    plan: _types.Path, output: _types.Path | None = None, **options: Unpack[_plan_types.SweepOptions]
 ) -> Report:
     """Give the designs of a plan to a task, and write their figures into one table.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypedDict
+from typing import Any, Literal, TypeAlias, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -13,13 +13,10 @@ from unripple._drive import Drive
 from unripple._progress import ProgressCallback
 from unripple._surface import Surface
 
-if TYPE_CHECKING:
-    import distributed
-
 #: Path of a file or folder.
 Path: TypeAlias = str | os.PathLike[str]
 #: A surface, the name of a built-in one, the path of a file, or the text of one.
-SurfaceLike: TypeAlias = Surface | str | os.PathLike[str]
+SurfaceLike: TypeAlias = Surface | Path
 #: Numbers in a row, such as x and y.
 Row: TypeAlias = Sequence[float] | npt.NDArray[np.floating[Any]] | npt.NDArray[np.integer[Any]] | str
 #: Places, or one alone.
@@ -95,13 +92,10 @@ class FigureOptions(TypedDict, total=False):
     output: Path | None
 
 
-class PlaceOptions(SurfaceOptions, FigureOptions, total=False):
-    """Options of `place`."""
+class AreaOptions(TypedDict, total=False):
+    """Options of where things may be placed, and of the search for places."""
 
     count: int | None
-    keep: str | Sequence[str] | None
-    keep_all: bool | None
-    like: str | None
     rim_mm: Row | None
     rim_m: Row | None
     within: Polygons | None
@@ -117,6 +111,17 @@ class PlaceOptions(SurfaceOptions, FigureOptions, total=False):
     pitch_m: float | None
     apart_mm: float | None
     apart_m: float | None
+    restarts: int | None
+    seed: int | None
+    up_to: int | None
+
+
+class PlaceOptions(SurfaceOptions, AreaOptions, FigureOptions, total=False):
+    """Options of `place`."""
+
+    keep: str | Sequence[str] | None
+    keep_all: bool | None
+    like: str | None
     at: Places | None
     points_mm: Places | None
     points_m: Places | None
@@ -134,42 +139,20 @@ class PlaceOptions(SurfaceOptions, FigureOptions, total=False):
     tension: float | None
     window_ms: float | None
     window_s: float | None
-    restarts: int | None
-    seed: int | None
-    up_to: int | None
     method: Method | Sequence[Method] | None
     methods: Sequence[Method] | None
 
 
-class SensorsOptions(SurfaceOptions, FigureOptions, total=False):
+class SensorsOptions(SurfaceOptions, AreaOptions, FigureOptions, total=False):
     """Options of `sensors`."""
 
-    count: int | None
     taps: bool | None
     sensing: Sensing | None
     keep: Places | None
     keep_mm: Places | None
     keep_m: Places | None
-    rim_mm: Row | None
-    rim_m: Row | None
-    within: Polygons | None
-    within_mm: Polygons | None
-    within_m: Polygons | None
-    keep_out: Polygons | None
-    keep_out_mm: Polygons | None
-    keep_out_m: Polygons | None
-    place: Places | None
-    places_mm: Places | None
-    places_m: Places | None
-    grid_mm: float | None
-    pitch_m: float | None
-    apart_mm: float | None
-    apart_m: float | None
     snr_db: float | None
     profile: int | None
-    restarts: int | None
-    seed: int | None
-    up_to: int | None
 
 
 class TargetOptions(TypedDict, total=False):
@@ -384,17 +367,6 @@ class PlayOptions(DeviceOptions, total=False):
     drift_percent: float | None
     drift: float | None
     keep_drive: Path | None
-
-
-class SweepOptions(CallOptions, total=False):
-    """Options of `sweep`."""
-
-    shard: int | None
-    count: bool | None
-    no_figures: bool | None
-    columns: int | None
-    client: distributed.Client | None
-    shared: bool | None
 
 
 class ReproduceOptions(CallOptions, total=False):
