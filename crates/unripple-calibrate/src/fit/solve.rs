@@ -127,7 +127,7 @@ impl Case<'_> {
         Ok((0..unknowns).map(variance).collect())
     }
 
-    /// Distance of each unknown from its expected value, in standard deviations of its prior.
+    /// Distance of each unknown from its expected value, in standard deviations of its prior, `[unknown]`.
     pub fn offsets(&self, values: &Values, expected: &Values) -> Vec<f64> {
         let (mut values, mut expected) = (values.clone(), expected.clone());
         let unknowns = self.layout.unknowns().into_iter();
