@@ -1,6 +1,6 @@
 //! Options of the task `optimise`.
 
-use super::search::reads;
+use super::samples::reads;
 use crate::TaskError;
 use crate::record::{Request, Visit};
 use serde::{Deserialize, Serialize};

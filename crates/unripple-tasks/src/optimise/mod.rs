@@ -6,12 +6,14 @@
 
 mod ask;
 mod asker;
+mod course;
 mod figure;
 mod folder;
 mod front;
 mod good;
 mod report;
 mod run;
+mod samples;
 mod search;
 mod table;
 mod told;

@@ -1,6 +1,6 @@
 //! Report of the task `optimise`.
 
-use super::run::Course;
+use super::course::Course;
 use super::{Good, Search, Step};
 use crate::TaskError;
 use crate::sweep::{FailedDesign, Named, listed, short};

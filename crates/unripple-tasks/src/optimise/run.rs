@@ -1,10 +1,8 @@
 //! Searches: asks for the designs of one generation after the other, computes them, and says what was found.
 
 use super::asker::{Asker, by_python};
+use super::course::Course;
 use super::folder::Folder;
-use super::front::Front;
-use super::good::Step;
-use super::told::Told;
 use super::{Ask, Report, Search, figure, table};
 use crate::figures::Columns;
 use crate::sweep::{Piece, Row, TABLE, Workers};
@@ -13,7 +11,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::process::Command;
 use unripple::act::Note;
-use unripple_store::{Want, write_file};
+use unripple_store::write_file;
 
 /// Name of the report in the folder.
 const REPORT: &str = "optimise.json";
@@ -27,21 +25,6 @@ pub struct Crew<'c> {
     pub jobs: usize,
     /// The command of a process that computes a piece of a sweep, from the plan and the folder of that sweep; see [`Workers`].
     pub command: &'c dyn Fn(&Path, &Path, Piece) -> Command,
-}
-
-/// All that is known of a search so far.
-#[derive(Default)]
-pub(super) struct Course {
-    /// All designs, generation by generation.
-    pub told: Vec<Told>,
-    /// What each generation brought.
-    pub steps: Vec<Step>,
-    /// The designs that no other one is better than.
-    pub front: Front,
-    /// Optimisers that asked, as they call themselves, each once.
-    pub optimisers: Vec<String>,
-    /// The generation that has to be asked for next; `None` if the search is over.
-    pub to_ask: Option<usize>,
 }
 
 /// Searches by a plan, in this process, and asks the Python package for designs. What is in the folder already is neither asked for nor
@@ -185,28 +168,6 @@ fn computed(
     let command = |piece: Piece| (crew.command)(&plan, &place, piece);
     let workers = Workers { jobs: crew.jobs, command: &command };
     folder.rows(generation, known, Some(&workers), progress)
-}
-
-impl Course {
-    /// Takes the rows of another generation into account.
-    fn take(&mut self, search: &Search, generation: usize, rows: Vec<Row>, known: &mut HashMap<String, Row>) {
-        let (designs, mut failed) = (rows.len(), 0);
-        for row in rows {
-            let at = self.told.len();
-            known.entry(row.hash.clone()).or_insert_with(|| row.clone());
-            self.told.push(Told::of(search.file(), generation, at, row));
-            failed += usize::from(self.told[at].losses.is_none());
-            self.front.take(&self.told, at);
-        }
-        let best = match (search.file().objectives.as_slice(), self.front.places()) {
-            ([only], [first, ..]) => {
-                let loss = self.told[*first].feasible().and_then(|losses| losses.first().copied());
-                loss.map(|loss| if only.want == Want::Most { -loss } else { loss })
-            }
-            _ => None,
-        };
-        self.steps.push(Step { generation, designs, failed, best, front: self.front.places().len() });
-    }
 }
 
 /// Draws the figures, and returns the names of their files.

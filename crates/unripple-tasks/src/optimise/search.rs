@@ -1,12 +1,13 @@
 //! A plan of a search, opened.
 
+use super::samples::samples;
 use crate::record::of_bytes;
-use crate::sweep::{self, Plan, canonical, origin, step, written};
+use crate::sweep::{self, Plan, canonical, origin, written};
 use crate::{SurfaceAsk, TaskError};
 use serde_json::{Value, json};
 use std::fs::canonicalize;
 use std::path::{Component, Path, PathBuf};
-use unripple_store::{Axis, AxisValues, Designs, PlanFile, SearchFile, Varied, load_search};
+use unripple_store::{Axis, AxisValues, Designs, SearchFile, Varied, load_search};
 
 /// A plan of a search with its surface.
 #[derive(Clone, Debug)]
@@ -131,41 +132,6 @@ impl Search {
             SurfaceAsk::Text { toml, .. } => Ok(Some(toml)),
             _ => Ok(None),
         }
-    }
-}
-
-/// Files that the plan in a file reads besides its own; of one with faults, which its reader tells, those of its surface.
-pub(super) fn reads(plan: &Path) -> Vec<PathBuf> {
-    match load_search(plan, &sweep::tasks()) {
-        Ok(file) => sweep::reads_of(plan, &samples(&file)),
-        Err(_) => sweep::reads(plan),
-    }
-}
-
-/// The plan of a sweep over designs with all listed values of the unknowns, and with both ends of ranges.
-fn samples(file: &SearchFile) -> PlanFile {
-    let design = |at: usize| -> Vec<(Varied, Value)> {
-        let value = |axis: &Axis| step(&axis.values, at.min(last(axis)));
-        file.axes.iter().map(|axis| (axis.varied.clone(), value(axis))).collect()
-    };
-    let most = file.axes.iter().map(last).max().unwrap_or_default();
-    PlanFile {
-        name: file.name.clone(),
-        folder: file.folder.clone(),
-        task: file.task.clone(),
-        surface: file.surface.clone(),
-        ask: file.ask.clone(),
-        shard: file.shard,
-        designs: Designs::List((0..=most).map(design).collect()),
-        figures: file.figures.clone(),
-    }
-}
-
-/// Index of the last listed value of an unknown, or of the greater end of its range.
-fn last(axis: &Axis) -> usize {
-    match &axis.values {
-        AxisValues::List(values) => values.len().saturating_sub(1),
-        AxisValues::Range { .. } => 1,
     }
 }
 
