@@ -30,6 +30,7 @@ pub struct Aim {
 /// peak = pᵀz with p_a = φ(x)ᵀs_a,   mean square outside the focal disc = zᵀQz with Q_ab = s_aᵀ W s_b,
 ///
 /// W the mean of the products of two shapes over the points of the grid outside the disc. A row of Q is computed when it is first needed.
+/// Of sampled responses ([`Forms::sampled`]), p and Q are sums over their samples and points.
 #[derive(Debug)]
 pub struct Forms {
     cases: Vec<Case>,
@@ -44,16 +45,16 @@ pub struct Forms {
 /// memory. With twice as many, a search computes more rows that it never needs.
 const TOGETHER: usize = 32;
 
-/// One target on one model of the surface.
+/// One target on one model of the surface, or of sampled responses.
 #[derive(Debug)]
-struct Case {
+pub(crate) struct Case {
     /// Peak velocity p_a of each actuator, per square of its input weights.
     peaks: Vec<f32>,
     /// Mean square outside the disc, Q_aa, of each actuator.
     own: Vec<f32>,
-    /// Velocities of the modes at the focal instant, s_a, modes x actuators.
+    /// Velocities of the modes at the focal instant, s_a, modes x actuators; Q itself where it is known, actuators x actuators.
     states: Mat<f32>,
-    /// W s_a, modes x actuators.
+    /// W s_a, modes x actuators; the unit matrix where Q is known.
     outside: Mat<f32>,
     /// Factor that converts peaks to m²/s² per squared unit of drive, summed over samples.
     unit: f64,
@@ -98,10 +99,20 @@ impl Forms {
             }
             forms.rate = rate;
         }
-        let total: f64 = forms.weights.iter().sum();
-        forms.weights.iter_mut().for_each(|weight| *weight /= total);
-        forms.rows = (0..forms.actuators.div_ceil(TOGETHER)).map(|_| OnceLock::new()).collect();
-        Ok(forms)
+        Ok(forms.weighed())
+    }
+
+    /// The forms of `actuators` actuators from cases with weights, of which only ratios matter, and the sample rate (Hz).
+    pub(crate) fn of_cases(cases: Vec<Case>, weights: Vec<f64>, actuators: usize, rate: f64) -> Self {
+        Self { cases, weights, actuators, rate, rows: Vec::new() }.weighed()
+    }
+
+    /// These forms with weights whose sum is 1, and without any row yet.
+    fn weighed(mut self) -> Self {
+        let total: f64 = self.weights.iter().sum();
+        self.weights.iter_mut().for_each(|weight| *weight /= total);
+        self.rows = (0..self.actuators.div_ceil(TOGETHER)).map(|_| OnceLock::new()).collect();
+        self
     }
 
     /// Number of actuators: the kept ones, and one for each place.
@@ -186,17 +197,38 @@ impl Forms {
         let forms = 4.0 * (cases * self.actuators) as f64 * (2 * modes + self.actuators) as f64;
         // Input weights at all nodes, in double precision and once more while they are scaled.
         let inputs = 8.0 * (modes * self.actuators * (nodes + 1)) as f64;
-        let bytes = forms + inputs;
-        let memory = Memory::here();
-        if memory.holds(bytes) {
-            return Ok(());
+        held(forms + inputs, self.actuators, cases)
+    }
+}
+
+/// Returns an error if the forms of so many actuators and cases, which take so many bytes, need more memory than is allowed.
+pub(crate) fn held(bytes: f64, places: usize, cases: usize) -> Result<(), PlacementError> {
+    let memory = Memory::here();
+    if memory.holds(bytes) {
+        return Ok(());
+    }
+    let [needed_gib, limit_gib] = [bytes, memory.bytes()].map(|bytes| bytes / Memory::GIB);
+    Err(PlacementError::TooLarge { places, cases, needed_gib, limit_gib })
+}
+
+impl Case {
+    /// A target whose mean squares outside the disc are known for all pairs of actuators: `squares`, Q, actuators x actuators. `unit`
+    /// converts peaks to m²/s² per squared unit of drive, summed over samples.
+    pub(crate) fn of_squares(peaks: Vec<f32>, squares: Mat<f32>, unit: f64) -> Self {
+        let count = peaks.len();
+        let outside = Mat::from_fn(count, count, |a, b| if a == b { 1.0 } else { 0.0 });
+        Self { own: (0..count).map(|a| squares[(a, a)]).collect(), peaks, states: squares, outside, unit }
+    }
+
+    /// This case, if any actuator moves its target `at` (m): where none does, time reversal has no drive.
+    ///
+    /// # Errors
+    /// [`PlacementError::Target`].
+    pub(crate) fn moved(self, at: Point) -> Result<Self, PlacementError> {
+        match self.peaks.iter().any(|peak| *peak > 0.0) {
+            true => Ok(self),
+            false => Err(PlacementError::Target { at, expected: "an actuator that moves it" }),
         }
-        Err(PlacementError::TooLarge {
-            places: self.actuators,
-            cases,
-            needed_gib: bytes / Memory::GIB,
-            limit_gib: memory.bytes() / Memory::GIB,
-        })
     }
 }
 
@@ -229,11 +261,7 @@ fn case(basis: &Basis, nodes: &[Mat<f32>], at: Point) -> Result<Case, PlacementE
             add(found.outside.col_as_slice_mut(a), share, outside.col_as_slice(a));
         }
     }
-    // Where no actuator moves the target, time reversal has no drive.
-    match found.peaks.iter().any(|peak| *peak > 0.0) {
-        true => Ok(found),
-        false => Err(PlacementError::Target { at, expected: "an actuator that moves it" }),
-    }
+    found.moved(at)
 }
 
 /// A product of two vectors, in eight sums that run side by side.

@@ -82,6 +82,12 @@ pub fn reached_each(
     Ok(found)
 }
 
+/// Contrast and energy of time reversal to each target from a set of actuators, given by their indices in the forms of one model or of
+/// sampled responses. Of forms of several models, the results are those of each target on each model in turn.
+pub fn reached_from(forms: &Forms, set: &[usize]) -> Vec<Reached> {
+    of_targets(forms, set, forms.cases())
+}
+
 /// Contrast and energy of time reversal from a set of actuators to each target.
 fn of_targets(forms: &Forms, set: &[usize], targets: usize) -> Vec<Reached> {
     let (peaks, contrasts) = forms.of_set(set);

@@ -12,6 +12,9 @@
 //! their actuators off the grid. [`reached`] gives the contrast of a layout at each target, and an [`Objective`] condenses these
 //! contrasts to one number.
 //!
+//! [`Forms::sampled`] are the same sums for responses that were measured: then the search chooses among the actuators of a library, and
+//! [`reached_from`] gives the contrast of a choice at each target.
+//!
 //! For calibration, [`Informations`] are what measurements at many places tell of some unknowns. [`Approximate`] is the best possible share
 //! of measurements at each place, with a certificate; a [`Picking`] finds single places ([`Picked`]), whose efficiency it bounds.
 //!
@@ -53,6 +56,7 @@ mod picking;
 mod plant;
 mod polish;
 mod rules;
+mod sampled;
 mod search;
 mod spread;
 
@@ -61,7 +65,7 @@ pub use chosen::Chosen;
 pub use error::PlacementError;
 pub use forms::{Aim, Forms};
 pub use informations::Informations;
-pub use layout::{Reached, figure, reached, reached_each};
+pub use layout::{Reached, figure, reached, reached_each, reached_from};
 pub use objective::Objective;
 pub use picking::{Picked, Picking};
 pub use plant::Plant;

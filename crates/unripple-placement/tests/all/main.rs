@@ -6,4 +6,5 @@ mod contrast;
 mod exhaustive;
 mod mounting;
 mod picking;
+mod sampled;
 mod search;
