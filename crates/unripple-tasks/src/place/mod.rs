@@ -9,6 +9,7 @@ mod refused;
 mod report;
 mod run;
 mod setting;
+mod sought;
 mod text;
 
 pub use ask::{Ask, ObjectiveAsk};

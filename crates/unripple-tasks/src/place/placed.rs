@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use unripple::core::Actuator;
-use unripple_placement::{Aim, Objective, Reached, figure};
+use unripple_placement::{Aim, Found, Objective, Reached, figure};
 
 /// An actuator in a layout.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -99,20 +99,42 @@ pub struct Build {
 /// The place where one more actuator would improve the objective most.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct More {
+    /// Name of the actuator of a library; absent where a place was chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// The place, in m.
     pub at_m: [f64; 2],
     /// The objective with an actuator there, on the targets that layouts are optimised for.
     pub objective: f64,
 }
 
+impl Placed {
+    /// Names and places of all actuators of a surface.
+    pub(super) fn all(actuators: &[Actuator]) -> Vec<Self> {
+        let one = |a: &Actuator| Self { name: a.name.clone(), at_m: [a.at.x, a.at.y] };
+        actuators.iter().map(one).collect()
+    }
+}
+
+impl Number {
+    /// The contrasts of the layout that was found for a number of actuators, at `aims`.
+    pub(super) fn of(found: &Found, reached: &[Reached], aims: &[Aim]) -> Self {
+        Self {
+            actuators: found.actuators.len(),
+            objective: found.score,
+            mean_contrast: figure(reached, aims, Objective::Mean),
+            worst_contrast: figure(reached, aims, Objective::Worst),
+        }
+    }
+}
+
 impl Layout {
     /// The contrasts of a layout at `aims`.
-    pub(super) fn of(actuators: &[Actuator], reached: &[Reached], aims: &[Aim]) -> Self {
+    pub(super) fn of(actuators: Vec<Placed>, reached: &[Reached], aims: &[Aim]) -> Self {
         let least = (0..aims.len()).min_by(|a, b| reached[*a].least.total_cmp(&reached[*b].least));
         let worst_at = least.map_or([0.0; 2], |i| [aims[i].at.x, aims[i].at.y]);
-        let name = |a: &Actuator| Placed { name: a.name.clone(), at_m: [a.at.x, a.at.y] };
         Self {
-            actuators: actuators.iter().map(name).collect(),
+            actuators,
             mean_contrast: figure(reached, aims, Objective::Mean),
             median_contrast: figure(reached, aims, Objective::Quantile(0.5)),
             worst_contrast: figure(reached, aims, Objective::Worst),

@@ -1,20 +1,21 @@
 //! Finds places for actuators, and evaluates the layout.
 
-use super::placed::{Best, Build, Layout, More, Number, Random, Restarts};
+use super::placed::{Build, Layout, Number, Placed, Random, Restarts};
 use super::refused::refused;
 use super::setting::Setting;
+use super::sought::{Sought, objective_name};
 use super::{Ask, Report, by_method, figure};
 use crate::figures::Columns;
 use crate::{Progress, TaskError, figures, folder, go_on};
 use unripple::core::{Actuator, Point, Surface};
-use unripple_placement::{
-    Aim, Chosen, Forms, Found, Objective, PlacementError, Polish, Reached, Search, figure as condensed,
-    reached, reached_each,
-};
+use unripple_placement::{Aim, Forms, Found, Polish, Reached, Search, reached, reached_each};
 use unripple_store::to_toml;
 
 /// Random layouts that placed ones are compared with.
-const RANDOM: usize = 20;
+pub(super) const RANDOM: usize = 20;
+
+/// What the seed of random layouts for comparison differs by from that of the restarts.
+pub(super) const OTHERS: u64 = 0x5eed;
 
 /// Errors of the places, in m, whose cost is told.
 const ERRORS: [f64; 3] = [0.5e-3, 1e-3, 2e-3];
@@ -78,68 +79,28 @@ fn found(
     let at: Vec<Point> = stay.chain(setting.places.iter().copied()).collect();
     let objective = ask.objective();
     let search = Search { forms: &forms, at: &at, kept, apart: setting.apart(ask), objective };
-    let (each, mut starts) = searched(ask, &search, progress)?;
-    go_on(progress)?;
-    progress.stage("all layouts, where they are few");
-    let optimum = search.best_of_all(ask.count);
-    let beginnings = starts.len();
-    starts.extend(optimum.clone());
-    let best =
-        starts.iter().fold(&starts[0], |best, found| if found.score > best.score { found } else { best });
+    let sought = Sought::of(ask, &search, progress)?;
     go_on(progress)?;
     progress.stage("polish");
-    let grid: Vec<Point> = best.actuators[kept..].iter().map(|a| at[*a]).collect();
+    let grid: Vec<Point> = sought.best.actuators[kept..].iter().map(|a| at[*a]).collect();
     let (places, polished) = match setting.pitch {
         Some(pitch) => polish(ask, setting).polished(grid, pitch).map_err(refused)?,
-        None => (grid, best.score),
+        None => (grid, sought.best.score),
     };
-    let one_more = Chosen::new(&forms, best.actuators.clone()).with_each(objective);
     let built = setting.built(&places);
-    let evaluated = Evaluated::of(ask, setting, &search, (&each, &places), progress)?;
+    let evaluated = Evaluated::of(ask, setting, &search, (&sought.each, &places), progress)?;
     progress.stage("methods");
     let methods = by_method::each(&ask.methods, setting, &built, progress)?;
-    let restarts = Restarts {
-        reached: starts[..beginnings].iter().map(|found| found.score).collect(),
-        best: best.score,
-        polished,
-    };
+    let one_more = sought.one_more(&search);
+    let drawn = sought.free(&search);
     let report = Report {
-        certificate: certificate(&search, ask.count, &starts[..beginnings], optimum),
-        one_more: more(&search, &one_more, best),
-        restarts,
+        restarts: Restarts { reached: sought.reached, best: sought.best.score, polished },
+        certificate: sought.certificate,
+        one_more,
         methods,
         ..evaluated.report(ask, setting, &built)
     };
-    let free = |b: usize| if search.is_free(&best.actuators, b) { one_more[b] } else { f64::NAN };
-    Ok((report, built, (kept..at.len()).map(free).collect()))
-}
-
-/// The layouts of every number of actuators, and those of the requested number from each beginning, the greedy one first.
-fn searched(
-    ask: &Ask,
-    search: &Search<'_>,
-    progress: &mut dyn Progress,
-) -> Result<(Vec<Found>, Vec<Found>), TaskError> {
-    go_on(progress)?;
-    progress.stage("each number of actuators");
-    let places = search.at.len() - search.kept;
-    let up_to = ask.up_to.unwrap_or(2 * ask.count).max(ask.count).min(places);
-    let each = match search.each_number(up_to) {
-        // Distances may leave fewer places than there are points of the grid.
-        Err(PlacementError::Few { found, .. }) if found >= ask.count => search.each_number(found),
-        other => other,
-    };
-    let few = |error| match error {
-        PlacementError::Few { found, .. } => PlacementError::Few { expected: ask.count, found },
-        other => other,
-    };
-    let each = each.map_err(|error| refused(few(error)))?;
-    go_on(progress)?;
-    progress.stage("search");
-    let mut starts = vec![each[ask.count - 1].clone()];
-    // Where distances leave room for hardly any layout, random ones may not be found; the greedy one was.
-    starts.extend(search.restarts(ask.count, ask.restarts, ask.seed).unwrap_or_default());
-    Ok((each, starts))
+    Ok((report, built, drawn))
 }
 
 fn polish<'a>(ask: &Ask, setting: &'a Setting) -> Polish<'a> {
@@ -152,41 +113,6 @@ fn polish<'a>(ask: &Ask, setting: &'a Setting) -> Polish<'a> {
         apart: setting.apart(ask),
         objective: ask.objective(),
     }
-}
-
-/// The objective that is maximised, in words.
-fn objective_name(ask: &Ask) -> String {
-    match ask.objective() {
-        Objective::Mean => "mean contrast".into(),
-        Objective::Worst => "least contrast".into(),
-        Objective::Quantile(share) => {
-            format!("contrast that is lower at {:.0} % of the targets", 100.0 * share)
-        }
-    }
-}
-
-/// What is known of how good a layout can be.
-fn certificate(search: &Search<'_>, count: usize, starts: &[Found], best: Option<Found>) -> Best {
-    let layouts = search.layouts(count);
-    let reached = starts.iter().map(|found| found.score).fold(0.0, f64::max);
-    let certificate = match &best {
-        Some(best) if reached >= best.score * (1.0 - 1e-4) => {
-            "the best of all layouts on these places: every one was compared".to_owned()
-        }
-        Some(best) => format!(
-            "the best of all layouts on these places: every one was compared (the search alone reached {:.1} % of it)",
-            100.0 * reached / best.score
-        ),
-        None => format!("none: {layouts:.1e} layouts are too many to compare, and no useful bound is known"),
-    };
-    Best { layouts, objective: best.map(|best| best.score), certificate }
-}
-
-/// The best place for one more actuator.
-fn more(search: &Search<'_>, scores: &[f64], found: &Found) -> Option<More> {
-    let free = (search.kept..search.at.len()).filter(|b| search.is_free(&found.actuators, *b));
-    let best = free.reduce(|best, b| if scores[b] > scores[best] { b } else { best })?;
-    Some(More { at_m: [search.at[best].x, search.at[best].y], objective: scores[best] })
 }
 
 /// Layouts evaluated on targets that they were not optimised for.
@@ -212,7 +138,7 @@ impl Evaluated {
         let all = |layouts: &[Vec<Point>]| reached_each(plants, layouts, aims, window).map_err(refused);
         let at = |layout: &[usize]| layout[search.kept..].iter().map(|a| search.at[*a]).collect::<Vec<_>>();
         // Distances may be such that only a search finds room.
-        let random = match search.random(ask.count, RANDOM, ask.seed ^ 0x5eed) {
+        let random = match search.random(ask.count, RANDOM, ask.seed ^ OTHERS) {
             Ok(random) => {
                 let random = all(&random.iter().map(|layout| at(layout)).collect::<Vec<_>>())?;
                 Some(Random::of(&random, aims))
@@ -221,12 +147,7 @@ impl Evaluated {
         };
         go_on(progress)?;
         let numbers = all(&each.iter().map(|found| at(&found.actuators)).collect::<Vec<_>>())?;
-        let numbers = each.iter().zip(&numbers).map(|(found, reached)| Number {
-            actuators: found.actuators.len(),
-            objective: found.score,
-            mean_contrast: condensed(reached, aims, Objective::Mean),
-            worst_contrast: condensed(reached, aims, Objective::Worst),
-        });
+        let numbers = each.iter().zip(&numbers).map(|(found, reached)| Number::of(found, reached, aims));
         let mut builds = Vec::new();
         for error in ERRORS {
             go_on(progress)?;
@@ -273,8 +194,8 @@ impl Evaluated {
     /// The layout that the surface has, if any, and the one that was found.
     fn layouts(&self, setting: &Setting, built: &Surface) -> (Option<Layout>, Layout) {
         let aims = &setting.tested;
-        let of = |reached: &Vec<Reached>| Layout::of(&setting.surface.actuators, reached, aims);
-        (self.before.as_ref().map(of), Layout::of(&built.actuators, &self.after, aims))
+        let own = |reached: &Vec<Reached>| Layout::of(Placed::all(&setting.surface.actuators), reached, aims);
+        (self.before.as_ref().map(own), Layout::of(Placed::all(&built.actuators), &self.after, aims))
     }
 }
 
