@@ -14,11 +14,11 @@ pub(super) const TESTED: usize = 3;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
-    /// A surface file, or the name of a built-in surface.
+    /// A surface file, the name of a built-in surface, or a library of responses, of whose actuators some are chosen.
     pub surface: SurfaceAsk,
-    /// Number of actuators to place.
+    /// Number of actuators to place, or to choose.
     pub count: usize,
-    /// Names of actuators of the surface that are kept where they are, in addition to those that are placed; all others are
+    /// Names of actuators of the surface or library that are kept where they are, in addition to those that are placed; all others are
     /// removed.
     pub keep: Vec<String>,
     /// Keep all actuators of the surface.
@@ -38,7 +38,7 @@ pub struct Ask {
     pub pitch_m: Option<f64>,
     /// Least distance between any two actuators, in m; by default that at which two of those placed would touch.
     pub apart_m: Option<f64>,
-    /// Targets, in m; by default spread evenly over the surface.
+    /// Targets, in m; by default spread evenly over the surface. Of a library they are points that it has.
     pub points_m: Vec<Place>,
     /// Weight of each target; by default all weigh the same.
     pub weights: Vec<f64>,
@@ -70,7 +70,7 @@ pub struct Ask {
     /// Methods of focusing whose drives are evaluated before and after.
     #[serde(with = "names::methods")]
     pub methods: Vec<Method>,
-    /// Folder for the placed surface, report and figures; by default no file is written.
+    /// Folder for the placed surface (of a library, the names of the chosen actuators), report and figures; by default no file is written.
     pub output: Option<PathBuf>,
     /// Write no figures.
     pub no_figures: bool,

@@ -1,20 +1,37 @@
 //! Figures of the task `place`: the layout, and the contrast of every number of actuators.
 
 use super::Report;
-use super::setting::Setting;
 use crate::figures::Scene;
+use unripple::core::{Point, Surface};
 use unripple_plot::{
     Axis, ColourMap, Colours, Dash, Figure, Ink, Line, Mark, Marker, Plot, Points, Rule, Scatter, Symbol,
 };
 
-/// The figures with their names. `one_more` is the objective with one more actuator at each place.
-pub(super) fn all(report: &Report, setting: &Setting, one_more: &[f64]) -> Vec<(&'static str, Figure)> {
-    vec![("places", places(report, setting, one_more)), ("numbers", numbers(report))]
+/// What is drawn beside a report.
+pub(super) struct Drawn {
+    /// The surface.
+    pub surface: Surface,
+    /// The places to choose from.
+    pub places: Vec<Point>,
+    /// The objective with one more actuator at each place, not a number where that is not free.
+    pub one_more: Vec<f64>,
+}
+
+/// The figures with their names.
+pub(super) fn all(report: &Report, drawn: &Drawn) -> Vec<(&'static str, Figure)> {
+    let mut all = Vec::new();
+    // Where all places are taken, there is nothing to show of one more.
+    if drawn.one_more.iter().any(|score| score.is_finite()) {
+        all.push(("places", places(report, drawn)));
+    }
+    all.push(("numbers", numbers(report)));
+    all
 }
 
 /// The actuators as placed, on what one more would reach at each place.
-fn places(report: &Report, setting: &Setting, one_more: &[f64]) -> Figure {
-    let scene = Scene::new(&setting.surface, &[], 0.0);
+fn places(report: &Report, drawn: &Drawn) -> Figure {
+    let Drawn { surface, places, one_more } = drawn;
+    let scene = Scene::new(surface, &[], 0.0);
     let marker = |at: [f64; 2], symbol: Symbol, name: &str| Marker { at, symbol, name: name.into() };
     let mut markers: Vec<Marker> =
         report.after.actuators.iter().map(|a| marker(a.at_m, Symbol::Actuator, &a.name)).collect();
@@ -23,8 +40,8 @@ fn places(report: &Report, setting: &Setting, one_more: &[f64]) -> Figure {
     let least = one_more.iter().copied().fold(f64::INFINITY, f64::min);
     let most = one_more.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let scatter = Scatter {
-        points: setting.places.iter().map(|at| [at.x, at.y]).collect(),
-        values: one_more.to_vec(),
+        points: places.iter().map(|at| [at.x, at.y]).collect(),
+        values: one_more.clone(),
         outline: scene.outline.clone(),
         markers,
         colours: Colours {
@@ -68,7 +85,7 @@ fn numbers(report: &Report) -> Figure {
         let own = Points {
             x: vec![before.actuators.len() as f64],
             y: vec![before.mean_contrast],
-            label: "layout of the file".into(),
+            label: report.own().into(),
             ink: Ink::Palette(2),
             mark: Mark::Diamond,
             ..Points::default()

@@ -1,9 +1,11 @@
-//! `place`: finds where actuators should be, and how many of them there should be.
+//! `place`: finds where actuators should be, or which of a library's to keep, and how many of them there should be.
 
 mod ask;
 mod by_method;
+mod choice;
 mod cost;
 mod figure;
+mod measured;
 mod placed;
 mod refused;
 mod report;

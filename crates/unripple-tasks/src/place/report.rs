@@ -17,11 +17,14 @@ pub struct Report {
     pub command: &'static str,
     /// Name of the surface.
     pub surface: String,
-    /// Number of actuators that were placed.
+    /// The responses that were used, in words, where actuators of a library were chosen; absent for a surface.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub judged_on: Option<String>,
+    /// Number of actuators that were placed, or chosen.
     pub count: usize,
     /// Names of the kept actuators.
     pub kept: Vec<String>,
-    /// Number of places from which the search chose.
+    /// Number of places, or of actuators of a library, from which the search chose.
     pub places: usize,
     /// Spacing of the grid of places, in m; absent where places were given.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -39,7 +42,8 @@ pub struct Report {
     pub evaluated_on: usize,
     /// Whether the evaluation targets are other ones than those that the layout was optimised for.
     pub held_out: bool,
-    /// The layout that the surface has; absent where it has no actuators, or some that cannot be compared with those placed.
+    /// The layout that the surface has, or all actuators of the library; absent where it has no actuators, or some that cannot be compared
+    /// with those placed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub before: Option<Layout>,
     /// The layout that was found.
@@ -53,7 +57,7 @@ pub struct Report {
     pub certificate: Best,
     /// Layouts of every number of actuators, each made from the one before.
     pub each_number: Vec<Number>,
-    /// Contrast with random errors of the actuators' places.
+    /// Contrast with random errors of the actuators' places; empty for a library.
     pub mounting: Vec<Build>,
     /// The place where one more actuator would improve the objective most; absent if no place is left.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -62,6 +66,21 @@ pub struct Report {
     pub methods: Vec<ByMethod>,
     /// Notes on the search.
     pub notes: Vec<Note>,
-    /// Files in the output folder, beside the surface and the report.
+    /// Files in the output folder, beside the report and the surface or the names of actuators.
     pub files: Vec<String>,
+}
+
+impl Report {
+    /// What was done with the actuators, in a word.
+    pub(super) fn found(&self) -> &'static str {
+        if self.judged_on.is_some() { "chosen" } else { "placed" }
+    }
+
+    /// What the layout is that was there before, in words.
+    pub(super) fn own(&self) -> &'static str {
+        match self.judged_on {
+            Some(_) => "all of the library",
+            None => "layout of the file",
+        }
+    }
 }

@@ -1,12 +1,13 @@
 //! Finds places for actuators, and evaluates the layout.
 
+use super::figure::Drawn;
 use super::placed::{Build, Layout, Number, Placed, Random, Restarts};
 use super::refused::refused;
 use super::setting::Setting;
 use super::sought::{Sought, objective_name};
-use super::{Ask, Report, by_method, figure};
+use super::{Ask, Report, by_method, choice, figure, measured};
 use crate::figures::Columns;
-use crate::{Progress, TaskError, figures, folder, go_on};
+use crate::{Progress, TaskError, figures, folder, go_on, source};
 use unripple::core::{Actuator, Point, Surface};
 use unripple_placement::{Aim, Forms, Found, Polish, Reached, Search, reached, reached_each};
 use unripple_store::to_toml;
@@ -24,7 +25,8 @@ const ERRORS: [f64; 3] = [0.5e-3, 1e-3, 2e-3];
 const BUILDS: usize = 20;
 
 /// Finds where actuators should be so that time reversal has the most contrast, evaluates the layout on targets that it was not placed
-/// for, and writes the surface with it to a folder if the request names one.
+/// for, and writes the surface with it to a folder if the request names one. Of a library of responses it chooses the actuators to keep,
+/// and writes their names.
 ///
 /// ```
 /// use unripple_tasks::{Silent, place};
@@ -42,24 +44,47 @@ const BUILDS: usize = 20;
 /// ```
 ///
 /// # Errors
-/// [`TaskError::Ask`] of options that make no sense; those of reading the surface and writing the folder; [`TaskError::Input`] of places
-/// or models that the search does not fit; [`TaskError::Cancelled`].
+/// [`TaskError::Ask`] of options that make no sense; those of reading the surface or library and writing the folder;
+/// [`TaskError::Input`] of places or models that the search does not fit; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let columns = Columns::of(ask.columns)?;
     let out = folder::begin(ask.output.as_deref(), ask)?;
-    let setting = Setting::of(ask, progress)?;
-    let (mut report, built, drawn) = found(ask, &setting, progress)?;
+    let mut source = source::open(&ask.surface, progress)?;
+    source.allows(&choice::needing_modes(ask))?;
+    let Outcome { mut report, drawn, file } = match source.stored.take() {
+        Some(stored) => measured::outcome(ask, source.surface, stored, progress)?,
+        None => outcome(ask, source.surface, progress)?,
+    };
     if let Some((out, record)) = out {
         if !ask.no_figures {
             progress.stage("figures");
-            report.files = figures::write(&out, &columns.fit(figure::all(&report, &setting, &drawn)))?;
+            report.files = figures::write(&out, &columns.fit(figure::all(&report, &drawn)))?;
         }
-        out.write("surface.toml", to_toml(&built).as_bytes())?;
+        let (name, text) = file;
+        out.write(name, text.as_bytes())?;
         record.write(&out, &report)?;
         out.write("report.md", report.markdown().as_bytes())?;
         folder::finish(out, progress)?;
     }
     Ok(report)
+}
+
+/// What a search comes to.
+pub(super) struct Outcome {
+    /// The report.
+    pub report: Report,
+    /// What is drawn beside the report.
+    pub drawn: Drawn,
+    /// Name and text of the file that says which actuators there are to be.
+    pub file: (&'static str, String),
+}
+
+/// The places for actuators on a surface.
+fn outcome(ask: &Ask, surface: Surface, progress: &mut dyn Progress) -> Result<Outcome, TaskError> {
+    let setting = Setting::of(ask, surface, progress)?;
+    let (report, built, one_more) = found(ask, &setting, progress)?;
+    let drawn = Drawn { surface: setting.surface, places: setting.places, one_more };
+    Ok(Outcome { report, drawn, file: ("surface.toml", to_toml(&built)) })
 }
 
 /// The search, the surface with the placed actuators, and the objective with one more actuator at every

@@ -10,7 +10,7 @@ use crate::{Progress, TaskError, go_on, point};
 use std::collections::HashSet;
 use std::f64::consts::PI;
 use unripple::act::{Note, accuracy, chosen_window, less_accurate, model};
-use unripple::core::{Actuator, ActuatorKind, Patch, Point, Random, Responses, Surface};
+use unripple::core::{Actuator, ActuatorKind, Conditions, Outline, Patch, Point, Random, Responses, Surface};
 use unripple::physics::Transducer;
 use unripple_placement::{Aim, Plant, Rules, spread};
 
@@ -52,12 +52,11 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    /// The settings for a request, after a check of its values.
+    /// The settings for a request on a surface, after a check of its values.
     ///
     /// # Errors
     /// [`TaskError::Ask`] of numbers and names that make no sense; those of solving for modes.
-    pub fn of(ask: &Ask, progress: &mut dyn Progress) -> Result<Self, TaskError> {
-        let surface = ask.surface.load()?;
+    pub fn of(ask: &Ask, surface: Surface, progress: &mut dyn Progress) -> Result<Self, TaskError> {
         numbers(ask)?;
         let kind = kind(ask, &surface)?;
         let kept = Surface { actuators: kept(ask, &surface)?, ..surface.clone() };
@@ -100,14 +99,7 @@ impl Setting {
 
     /// Least distance between two actuators, in m: by default that at which two of those placed would touch.
     pub fn apart(&self, ask: &Ask) -> f64 {
-        let radius = match self.kind.kind {
-            ActuatorKind::Piezo { patch: Patch::Round { radius }, .. } => radius,
-            ActuatorKind::Piezo { patch: Patch::Rectangular { sides: [width, height], .. }, .. } => {
-                0.5 * width.hypot(height)
-            }
-            _ => self.kind.contact_radius,
-        };
-        ask.apart_m.unwrap_or(2.0 * radius)
+        ask.apart_m.unwrap_or(2.0 * reach(&self.kind))
     }
 
     /// Notes on effects that the search leaves out, and on results that are less accurate than usual.
@@ -123,27 +115,8 @@ impl Setting {
                         damping count only in the results by method";
             notes.push(Note { topic: "loads", text: text.into() });
         }
-        notes.extend(self.large_discs());
-        if !self.held_out {
-            let text =
-                "layouts are evaluated on the targets that they were optimised for, since these were given";
-            notes.push(Note { topic: "targets", text: text.into() });
-        }
+        notes.extend(of_targets(&conditions(&self.surface), self.held_out));
         notes
-    }
-
-    /// That focal discs are large, where they cover much of the surface.
-    fn large_discs(&self) -> Option<Note> {
-        let radius = conditions(&self.surface).focal_radius();
-        let covered = PI * radius * radius / self.surface.outline.area();
-        let text = format!(
-            "a focal disc, of radius {:.1} mm, has {:.0} % of the area of the surface: contrasts are ratios to the little that is left \
-             outside, differ much between targets, and a layout that is good for some may not be for others; a band up to higher \
-             frequencies has smaller discs",
-            1e3 * radius,
-            100.0 * covered
-        );
-        (covered > LARGE_DISC).then(|| Note { topic: "focal disc", text })
     }
 
     /// The surface's own actuators that are not kept.
@@ -185,8 +158,37 @@ impl Setting {
     }
 }
 
+/// Largest distance from the place of an actuator to where it touches the sheet, in m.
+pub(super) fn reach(actuator: &Actuator) -> f64 {
+    match actuator.kind {
+        ActuatorKind::Piezo { patch: Patch::Round { radius }, .. } => radius,
+        ActuatorKind::Piezo { patch: Patch::Rectangular { sides: [width, height], .. }, .. } => {
+            0.5 * width.hypot(height)
+        }
+        _ => actuator.contact_radius,
+    }
+}
+
+/// Notes on targets: that focal discs are large, where they cover much of the surface, and that layouts are evaluated on the targets
+/// that they were optimised for, where these are not held out.
+pub(super) fn of_targets(conditions: &Conditions, held_out: bool) -> Vec<Note> {
+    let radius = conditions.focal_radius();
+    let covered = PI * radius * radius / conditions.outline.area();
+    let discs = format!(
+        "a focal disc, of radius {:.1} mm, has {:.0} % of the area of the surface: contrasts are ratios to the little that is left \
+         outside, differ much between targets, and a layout that is good for some may not be for others; a band up to higher \
+         frequencies has smaller discs",
+        1e3 * radius,
+        100.0 * covered
+    );
+    let seen = "layouts are evaluated on the targets that they were optimised for, since these were given";
+    let discs = (covered > LARGE_DISC).then_some(Note { topic: "focal disc", text: discs });
+    let seen = (!held_out).then(|| Note { topic: "targets", text: seen.into() });
+    discs.into_iter().chain(seen).collect()
+}
+
 /// Checks the numbers of a request that need no surface.
-fn numbers(ask: &Ask) -> Result<(), TaskError> {
+pub(super) fn numbers(ask: &Ask) -> Result<(), TaskError> {
     let within = |field: &'static str, found: usize, least: usize| match (least..=MOST).contains(&found) {
         true => Ok(()),
         false => Err(TaskError::ask(field, format!("{least} to {MOST}"), found)),
@@ -297,26 +299,37 @@ fn places(
     Ok(places)
 }
 
+/// The targets that a request names, with their weights.
+///
+/// # Errors
+/// [`TaskError::Ask`] of one that is not on the surface.
+pub(super) fn named_targets(ask: &Ask, outline: &Outline) -> Result<Vec<Aim>, TaskError> {
+    let weights = ask.weights.iter().copied().chain(std::iter::repeat(1.0));
+    let aims = ask.points_m.iter().map(point).zip(weights).map(|(at, weight)| Aim { at, weight });
+    let aims: Vec<Aim> = aims.collect();
+    if let Some(aim) = aims.iter().find(|aim| !outline.contains(aim.at)) {
+        let found = format!("{}, beyond its edge", aim.at);
+        return Err(TaskError::ask("points_m", "points on the surface", found));
+    }
+    Ok(aims)
+}
+
+/// Where targets may be that a request does not name, with the shortest wavelength `lambda_min` (m).
+pub(super) fn target_rules(ask: &Ask, lambda_min: f64) -> Rules {
+    let within = ask.targets_within_m.iter().map(|area| area.iter().map(point).collect()).collect();
+    // Near a rim that is held, nothing can be in focus.
+    let from_rim = if ask.targets_within_m.is_empty() { lambda_min } else { 0.0 };
+    Rules { from_rim: [from_rim, f64::INFINITY], within, keep_out: Vec::new() }
+}
+
 /// The targets that layouts are optimised for, and those on which they are evaluated.
 fn targets(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(Vec<Aim>, Vec<Aim>), TaskError> {
     let outline = &surface.outline;
     if !ask.points_m.is_empty() {
-        let weights = ask.weights.iter().copied().chain(std::iter::repeat(1.0));
-        let aims: Vec<Aim> =
-            ask.points_m.iter().map(point).zip(weights).map(|(at, weight)| Aim { at, weight }).collect();
-        if let Some(aim) = aims.iter().find(|aim| !outline.contains(aim.at)) {
-            return Err(TaskError::ask(
-                "points_m",
-                "points on the surface",
-                format!("{}, beyond its edge", aim.at),
-            ));
-        }
+        let aims = named_targets(ask, outline)?;
         return Ok((aims.clone(), aims));
     }
-    let within = ask.targets_within_m.iter().map(|area| area.iter().map(point).collect()).collect();
-    // Near a rim that is held, nothing can be in focus.
-    let from_rim = if ask.targets_within_m.is_empty() { lambda_min } else { 0.0 };
-    let rules = Rules { from_rim: [from_rim, f64::INFINITY], within, keep_out: Vec::new() };
+    let rules = target_rules(ask, lambda_min);
     let all = spread(outline, &rules, 0, (1 + TESTED) * ask.targets);
     if all.len() < (1 + TESTED) * ask.targets {
         let found = "hardly any: the surface is small compared with its shortest wavelength, or the areas lie beyond it";

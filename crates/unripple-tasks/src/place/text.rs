@@ -10,8 +10,13 @@ const ROWS: usize = 12;
 impl Report {
     /// The report as Markdown, with its figures.
     pub(super) fn markdown(&self) -> String {
-        let mut all =
-            format!("# {}: {} actuators placed\n\n```text\n{}```\n", self.surface, self.count, of(self));
+        let mut all = format!(
+            "# {}: {} actuators {}\n\n```text\n{}```\n",
+            self.surface,
+            self.count,
+            self.found(),
+            of(self)
+        );
         for (file, what) in [
             ("places.png", "The layout, and the contrast with one more actuator at each place"),
             ("numbers.png", "Contrast against the number of actuators"),
@@ -39,13 +44,15 @@ fn of(report: &Report) -> String {
         kept => format!(", in addition to {} kept ones", kept.len()),
     };
     let others = if report.held_out { " others" } else { "" };
+    let chosen = match &report.judged_on {
+        Some(told) => format!("chosen{kept}, among {} of a library ({told})", report.places),
+        None => format!("placed{kept}, chosen among {} places{pitch}", report.places),
+    };
     let _ = writeln!(
         text,
-        "{}: {} actuators placed{kept}, chosen among {} places{pitch}, for the {} of time reversal (window {:.1} ms) at {} targets; \
-         evaluated on {}{others}.\n",
+        "{}: {} actuators {chosen}, for the {} of time reversal (window {:.1} ms) at {} targets; evaluated on {}{others}.\n",
         report.surface,
         report.count,
-        report.places,
         report.objective,
         1e3 * report.window_s,
         report.placed_for,
@@ -81,8 +88,8 @@ fn layouts(text: &mut String, report: &Report) {
             layout.energy_for_peak / reference
         );
     };
-    row("placed", &report.after);
-    report.before.iter().for_each(|before| row("layout of the file", before));
+    row(report.found(), &report.after);
+    report.before.iter().for_each(|before| row(report.own(), before));
     if let Some(random) = &report.random {
         let _ = writeln!(
             text,
@@ -110,17 +117,22 @@ fn layouts(text: &mut String, report: &Report) {
 fn search(text: &mut String, report: &Report) {
     let restarts = &report.restarts;
     let least = restarts.reached.iter().copied().fold(f64::INFINITY, f64::min);
+    let polished = match report.judged_on {
+        Some(_) => String::new(),
+        None => format!(" on the grid, the final layout {:.2} off the grid", restarts.polished),
+    };
     let _ = writeln!(
         text,
-        "search: {} starting layouts reached {least:.2} to {:.2} on the grid, the final layout {:.2} off the grid; certificate: {}",
+        "search: {} starting layouts reached {least:.2} to {:.2}{polished}; certificate: {}",
         restarts.reached.len(),
         restarts.best,
-        restarts.polished,
         report.certificate.certificate
     );
     if let Some(more) = &report.one_more {
         let [x, y] = more.at_m.map(|x| 1e3 * x);
-        let _ = writeln!(text, "one more actuator: best at {x:.1}, {y:.1} mm, with {:.2}", more.objective);
+        let name = more.name.as_ref().map_or(String::new(), |name| format!("{name} "));
+        let _ =
+            writeln!(text, "one more actuator: best {name}at {x:.1}, {y:.1} mm, with {:.2}", more.objective);
     }
 }
 
