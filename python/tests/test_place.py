@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -169,3 +170,16 @@ def test_the_surface_is_written_with_the_actuators_in_their_places(film: ur.Surf
     table = report.to_dataframe()
     assert list(table["actuators"]) == [number.actuators for number in report.each_number]
     assert list(table["mean_contrast"]) == [number.mean_contrast for number in report.each_number]
+
+
+def test_the_actuators_of_a_library_to_keep(library: Path) -> None:
+    report = ur.place(
+        library, count=2, at=[(30, 30), (120, 120)], window_ms=20, output="chosen", no_figures=True
+    )
+    names = [actuator.name for actuator in report.after.actuators]
+    assert Path("chosen/actuators.txt").read_text(encoding="utf-8").split() == names and len(names) == 2
+    assert report.before.mean_contrast > 0 and len(report.before.actuators) == report.places
+    assert report.one_more.name not in names and report.mounting == [] and report.methods == []
+    with pytest.raises(ur.AskError, match="expected a surface, whose modes it needs, found .*a library") as raised:
+        ur.place(library, count=2, mounting_mm=1)
+    assert raised.value.field == "mounting_mm"

@@ -118,12 +118,15 @@ def modes(surface: _types.SurfaceLike, **options: Unpack[_types.ModesOptions]) -
 def place(surface: _types.SurfaceLike, **options: Unpack[_types.PlaceOptions]) -> Report:
     """Find where actuators should be so that time reversal has the most contrast, and how many are enough; see :meth:`Surface.place`.
 
+    Of a library of responses, it chooses by these alone which of its actuators to keep.
+
     Parameters
     ----------
     surface
-        A surface.
+        A surface, or the path of a library.
     **options
-        As for :meth:`Surface.place`.
+        As for :meth:`Surface.place`; those that need a model are refused of a library, whose `output` has the names of the chosen actuators
+        (``actuators.txt``) in place of a surface.
 
     Returns
     -------

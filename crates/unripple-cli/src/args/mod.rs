@@ -96,7 +96,8 @@ pub enum Command {
     Design(DesignOptions),
     /// Compute the modes: natural frequencies and decay times.
     Modes(ModesOptions),
-    /// Find where actuators should be so that time reversal has the most contrast, and how many are enough.
+    /// Find where actuators should be, or which of a library's to keep, so that time reversal has the most contrast, and how many are
+    /// enough.
     Place(PlaceOptions),
     /// Find where sensors or taps tell a fit most about a surface, with a certificate, and what it would then know.
     Sensors(SensorsOptions),

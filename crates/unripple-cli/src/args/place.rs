@@ -14,13 +14,14 @@ use unripple_tasks::text_forms::{distances, polygon, weighted};
 #[derive(Debug, Args)]
 #[command(after_help = examples::PLACE)]
 pub struct PlaceOptions {
-    /// A surface file, or the name of a built-in surface.
+    /// A surface file, the name of a built-in surface, or a library of responses, of whose actuators some are chosen.
+    #[arg(value_name = "SURFACE|LIBRARY")]
     pub surface: String,
-    /// Number of actuators to place.
+    /// Number of actuators to place, or to choose from a library.
     #[arg(long, value_name = "N", default_value_t = 8, help_heading = heading::ACTUATORS)]
     pub count: usize,
-    /// Name of an actuator of the surface that is kept where it is, in addition to those that are placed. Repeatable; all others are
-    /// removed.
+    /// Name of an actuator of the surface or library that is kept where it is, in addition to those that are placed. Repeatable; all
+    /// others are removed.
     #[arg(long, value_name = "NAME", help_heading = heading::ACTUATORS)]
     pub keep: Vec<String>,
     /// Keep all actuators of the surface.
@@ -48,7 +49,8 @@ pub struct PlaceOptions {
     /// Least distance between any two actuators, in mm; by default that at which two of those placed would touch.
     #[arg(long, value_name = "D", allow_negative_numbers = true, help_heading = heading::PLACES)]
     pub apart_mm: Option<f64>,
-    /// A target in mm, with an optional weight; by default targets are spread evenly over the surface. Repeatable.
+    /// A target in mm, with an optional weight; by default targets are spread evenly over the surface. For a library, the nearest of its
+    /// points. Repeatable.
     #[arg(long, value_name = "X,Y[,WEIGHT]", allow_hyphen_values = true, help_heading = heading::TARGETS)]
     pub at: Vec<String>,
     /// A polygon, such as the screen, in which targets must lie, as its corners in mm; by default anywhere at least one shortest wavelength
@@ -92,7 +94,8 @@ pub struct PlaceOptions {
     pub method: Vec<MethodName>,
     #[command(flatten)]
     pub figures: FigureOptions,
-    /// Folder for the surface file with the placed actuators, the report and pictures; without it only the report is printed.
+    /// Folder for the surface file with the placed actuators (for a library, the names of the chosen ones), the report and pictures; without
+    /// it only the report is printed.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
 }

@@ -11,6 +11,7 @@ mod cache;
 mod calibrate;
 mod calibrate_bands;
 mod calibrate_taps;
+mod chosen;
 #[path = "../common/mod.rs"]
 mod common;
 mod compare;
