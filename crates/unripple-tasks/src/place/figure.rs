@@ -9,7 +9,7 @@ use unripple_plot::{
 
 /// What is drawn beside a report.
 pub(super) struct Drawn {
-    /// The surface.
+    /// The surface on which places are drawn.
     pub surface: Surface,
     /// The places to choose from.
     pub places: Vec<Point>,

@@ -2,10 +2,10 @@
 
 use super::choice::Choice;
 use super::figure::Drawn;
-use super::placed::{Layout, Number, Placed, Random, Restarts};
+use super::outcome::Outcome;
+use super::placed::{Layout, More, Number, Placed, Random, Restarts};
 use super::refused::refused;
-use super::run::{OTHERS, Outcome, RANDOM};
-use super::sought::{Sought, objective_name};
+use super::sought::{OTHERS, RANDOM, Sought, objective_name};
 use super::{Ask, Report};
 use crate::source::Stored;
 use crate::{Progress, TaskError, go_on};
@@ -55,7 +55,7 @@ fn report(ask: &Ask, choice: &Choice, search: &Search<'_>, sought: &Sought, test
     let all: Vec<usize> = (0..choice.ports.len()).collect();
     let one_more = sought.one_more(search).map(|more| {
         let name = sought.next(search).map(|next| choice.responses.ports[choice.ports[next]].name.clone());
-        super::More { name, ..more }
+        More { name, ..more }
     });
     let best = sought.best.score;
     Report {

@@ -6,6 +6,7 @@ mod choice;
 mod cost;
 mod figure;
 mod measured;
+mod outcome;
 mod placed;
 mod refused;
 mod report;

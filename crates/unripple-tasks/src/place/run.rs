@@ -1,22 +1,17 @@
 //! Finds places for actuators, and evaluates the layout.
 
 use super::figure::Drawn;
+use super::outcome::Outcome;
 use super::placed::{Build, Layout, Number, Placed, Random, Restarts};
 use super::refused::refused;
 use super::setting::Setting;
-use super::sought::{Sought, objective_name};
+use super::sought::{OTHERS, RANDOM, Sought, objective_name};
 use super::{Ask, Report, by_method, choice, figure, measured};
 use crate::figures::Columns;
 use crate::{Progress, TaskError, figures, folder, go_on, source};
 use unripple::core::{Actuator, Point, Surface};
 use unripple_placement::{Aim, Forms, Found, Polish, Reached, Search, reached, reached_each};
 use unripple_store::to_toml;
-
-/// Random layouts that placed ones are compared with.
-pub(super) const RANDOM: usize = 20;
-
-/// What the seed of random layouts for comparison differs by from that of the restarts.
-pub(super) const OTHERS: u64 = 0x5eed;
 
 /// Errors of the places, in m, whose cost is told.
 const ERRORS: [f64; 3] = [0.5e-3, 1e-3, 2e-3];
@@ -67,16 +62,6 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         folder::finish(out, progress)?;
     }
     Ok(report)
-}
-
-/// What a search comes to.
-pub(super) struct Outcome {
-    /// The report.
-    pub report: Report,
-    /// What is drawn beside the report.
-    pub drawn: Drawn,
-    /// Name and text of the file that says which actuators there are to be.
-    pub file: (&'static str, String),
 }
 
 /// The places for actuators on a surface.

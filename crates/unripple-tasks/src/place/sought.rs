@@ -6,6 +6,12 @@ use super::refused::refused;
 use crate::{Progress, TaskError, go_on};
 use unripple_placement::{Chosen, Found, Objective, PlacementError, Search};
 
+/// Random layouts that those that were found are compared with.
+pub(super) const RANDOM: usize = 20;
+
+/// The difference between the seed of these random layouts and that of the restarts.
+pub(super) const OTHERS: u64 = 0x5eed;
+
 /// What a search found, on the targets that layouts are optimised for.
 pub(super) struct Sought {
     /// The layouts of every number of actuators, each made from the one before.
