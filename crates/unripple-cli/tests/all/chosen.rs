@@ -91,8 +91,10 @@ fn all_actuators_reach_what_a_focus_from_the_library_does() {
     let scratch = Scratch::new("chosen-all");
     let (library, out) = (library(&scratch), scratch.join("out"));
     let at = ["--at", "60.5,90"];
-    let report = chosen(&library, &[&["--count", "6", "-o", &out], &at[..]].concat());
-    let focus = json(&[&["focus", &library, "--window-ms", "20", "--between", "nearest"], &at[..]].concat());
+    let report = chosen(&library, &[&["--count", "6", "-o", &out][..], &at[..]].concat());
+    let seen = scratch.join("seen");
+    let focus = ["focus", &library, "--window-ms", "20", "--between", "nearest", "--no-figures", "-o", &seen];
+    let focus = json(&[&focus[..], &at[..]].concat());
     let contrast = number(&focus, "/targets/0/contrast");
     for which in ["before", "after"] {
         let found = number(&report, &format!("/{which}/mean_contrast"));
@@ -110,7 +112,7 @@ fn kept_actuators_and_areas_limit_the_choice() {
     let scratch = Scratch::new("chosen-kept");
     let library = library(&scratch);
     let quick = ["--targets", "4", "--restarts", "1"];
-    let report = chosen(&library, &[&["--count", "1", "--keep", "a4"], &quick[..]].concat());
+    let report = chosen(&library, &[&["--count", "1", "--keep", "a4"][..], &quick[..]].concat());
     let after = names(&report, "after");
     assert!(after.len() == 2 && after.iter().any(|name| name == "a4"), "{after:?}");
     assert_eq!((number(&report, "/places"), report["kept"].to_string().as_str()), (5.0, r#"["a4"]"#));
