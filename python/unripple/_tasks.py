@@ -116,9 +116,7 @@ def modes(surface: _types.SurfaceLike, **options: Unpack[_types.ModesOptions]) -
 
 
 def place(surface: _types.SurfaceLike, **options: Unpack[_types.PlaceOptions]) -> Report:
-    """Find where actuators should be so that time reversal has the most contrast, and how many are enough; see :meth:`Surface.place`.
-
-    Of a library of responses, it chooses by these alone which of its actuators to keep.
+    """Find where actuators should be so that time reversal has the most contrast, or which of a library's to keep; see :meth:`Surface.place`.
 
     Parameters
     ----------
