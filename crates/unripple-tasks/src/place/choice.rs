@@ -7,7 +7,7 @@ use crate::areas::{from_rim, polygons};
 use crate::numbers::above_zero;
 use crate::source::Stored;
 use crate::window::carries;
-use crate::{TaskError, point};
+use crate::TaskError;
 use unripple::act::{Note, chosen_window, lasting};
 use unripple::core::{Point, Responses, SampledResponses, Surface, window_samples};
 use unripple_placement::{Aim, Rules, spread};
