@@ -3,11 +3,11 @@
 use super::Ask;
 use super::ask::TESTED;
 use super::setting::{named_targets, numbers, of_targets, reach, target_rules};
+use crate::TaskError;
 use crate::areas::{from_rim, polygons};
 use crate::numbers::above_zero;
 use crate::source::Stored;
 use crate::window::carries;
-use crate::TaskError;
 use unripple::act::{Note, chosen_window, lasting};
 use unripple::core::{Point, Responses, SampledResponses, Surface, window_samples};
 use unripple_placement::{Aim, Rules, spread};
