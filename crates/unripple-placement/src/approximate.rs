@@ -49,10 +49,24 @@ impl Approximate {
     }
 
     /// Least D-efficiency of a design of as many measurements whose information has this ln det, 0 to 1: relative to all designs,
-    /// repeated places included. It is the `told`-th root of a ratio of determinants: the power of the noise could be larger by about its
-    /// inverse with the best design.
+    /// repeated places included. It is the p-th root of a ratio of determinants, p the number of unknowns, what is known before counted
+    /// in both: no design leaves variances, along the principal axes, of which the geometric mean is less than so many times that of
+    /// this one.
     pub fn efficiency(&self, informations: &Informations, log_det: f64) -> f64 {
-        ((log_det - self.bound(informations)) / self.told.max(1.0)).exp().min(1.0)
+        ((log_det - self.bound(informations)) / informations.unknowns() as f64).exp().min(1.0)
+    }
+
+    /// Least share, 0 to 1, of what any design of as many measurements adds to the ln det of what is known before, for a design whose
+    /// information has this ln det; for a Gaussian prior that is twice the information in nats (D. V. Lindley, *Ann. Math. Statist.* 27,
+    /// 986, 1956). Where much is known before, it tells designs apart, and the efficiency does not.
+    pub fn added(&self, informations: &Informations, log_det: f64) -> f64 {
+        let before = informations.log_det(&[]);
+        // Where nothing is known before, any design adds without bound.
+        if before.is_finite() {
+            ((log_det - before) / (self.bound(informations) - before)).clamp(0.0, 1.0)
+        } else {
+            1.0
+        }
     }
 }
 

@@ -4,7 +4,9 @@ use super::Report;
 use super::setting::Setting;
 use crate::figures::Scene;
 use unripple_placement::Approximate;
-use unripple_plot::{Axis, ColourMap, Colours, Dash, Figure, Ink, Line, Marker, Plot, Rule, Scatter, Symbol};
+use unripple_plot::{
+    Axis, ColourMap, Colours, Dash, Figure, Ink, Line, Marker, Plot, Rule, Scale, Scatter, Symbol,
+};
 
 /// The figures with their names.
 pub(super) fn all(report: &Report, setting: &Setting, best: &Approximate) -> Vec<(&'static str, Figure)> {
@@ -51,12 +53,12 @@ fn numbers(report: &Report) -> Figure {
     let layers = vec![
         line(|number| number.mean_deviation, "geometric mean", 0, Dash::Solid).into(),
         line(|number| number.worst_deviation, "worst unknown", 1, Dash::Dashed).into(),
-        line(|number| number.efficiency, "least efficiency", 2, Dash::Dotted).into(),
         Rule { at: report.count as f64, ..Rule::default() }.into(),
     ];
     let plot = Plot {
         x: Axis::new("Number of places"),
-        y: Axis { low: Some(0.0), ..Axis::new("Deviation over that of the prior; efficiency") },
+        // The mean is a thousandth of the worst where some unknowns are hardly told.
+        y: Axis { scale: Scale::Logarithmic, ..Axis::new("Deviation over that of the prior") },
         layers,
         ..Plot::default()
     };

@@ -117,6 +117,11 @@ pub(super) fn even(
     Some(chosen)
 }
 
+/// A lower bound, rounded down to a multiple of 1/`parts`.
+pub(super) fn below(bound: f64, parts: f64) -> f64 {
+    (bound * parts).floor() / parts
+}
+
 impl Certificate {
     /// The certificate of places with this ln det among all choices of as many.
     pub(super) fn of(setting: &Setting, best: &Approximate, count: usize, log_det: f64) -> Self {
@@ -128,8 +133,11 @@ impl Certificate {
             }
         };
         let certificate = format!(
-            "no choice of {count} of these places, be it with a place more than once, tells more than 1/{efficiency:.3} times as \
-             much; {theorem}"
+            "no choice of {count} of these places, be it with a place more than once, leaves variances of which the geometric mean is less \
+             than {:.3} times that of the planned ones; of the information that any such choice adds to what is known before, these add at \
+             least {:.1} %; {theorem}",
+            below(efficiency, 1e3),
+            below(100.0 * best.added(&setting.informations, log_det), 10.0),
         );
         Self {
             efficiency,

@@ -1,5 +1,6 @@
 //! The report of the task `sensors` as text.
 
+use super::planned::below;
 use super::{Report, SensingAsk, Unknown};
 use std::fmt::Write;
 
@@ -113,7 +114,8 @@ fn unknowns(text: &mut String, report: &Report) {
 /// How good the places are.
 fn certificate(text: &mut String, report: &Report) {
     let certificate = &report.certificate;
-    let percent = |share: Option<f64>| share.map_or("-".into(), |share| format!("{:.1} %", 100.0 * share));
+    let percent =
+        |share: Option<f64>| share.map_or("-".into(), |share| format!("{:.1} %", below(100.0 * share, 10.0)));
     let _ = writeln!(
         text,
         "\nD-efficiency, at least: planned {}, random {}, even {}; {:.1} unknowns are told",
@@ -148,7 +150,7 @@ fn numbers(text: &mut String, report: &Report) {
                 number.mean_deviation,
                 number.worst_deviation,
                 number.worst,
-                100.0 * number.efficiency
+                below(100.0 * number.efficiency, 10.0)
             );
         }
     }
