@@ -85,7 +85,7 @@ pub struct PlaceOptions {
     /// Seed of the random layouts.
     #[arg(long, value_name = "SEED", default_value_t = 1, help_heading = heading::SEARCH)]
     pub seed: u64,
-    /// Largest number of actuators in the table of contrast against their number; by default twice --count.
+    /// Largest number of actuators in the table of contrast against their number, at least --count; by default twice that.
     #[arg(long, value_name = "N", help_heading = heading::SEARCH)]
     pub up_to: Option<usize>,
     /// Method of focusing whose drives are evaluated with the surface's own actuators and with the placed

@@ -55,7 +55,7 @@ pub struct SensorsOptions {
     /// Seed of the random choices.
     #[arg(long, value_name = "SEED", default_value_t = 1, help_heading = heading::SEARCH)]
     pub seed: u64,
-    /// Largest number of places in the table of deviations against their number; by default twice --count.
+    /// Largest number of places in the table of deviations against their number, at least --count; by default twice that.
     #[arg(long, value_name = "N", help_heading = heading::SEARCH)]
     pub up_to: Option<usize>,
     #[command(flatten)]

@@ -157,7 +157,11 @@ fn places(ask: &Ask, surface: &Surface, rules: &Rules, pitch: Option<f64>) -> Re
     };
     if places.len() < ask.count {
         let expected = format!("at least {}, one for each that is planned", ask.count);
-        return Err(TaskError::ask("places_m, pitch_m, rim_m", expected, format!("{} places", places.len())));
+        let fields = match pitch {
+            Some(_) => "count, pitch_m, rim_m, within_m, keep_out_m",
+            None => "count, places_m",
+        };
+        return Err(TaskError::ask(fields, expected, format!("{} places", places.len())));
     }
     Ok(places)
 }
