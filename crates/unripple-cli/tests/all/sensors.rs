@@ -120,7 +120,7 @@ fn bad_input_is_refused_with_the_option() {
     let out = scratch.join("out");
     for (typed, option) in [
         (&["--count", "0"][..], "--count: expected 1 to 1000, found 0"),
-        (&["--count", "900"], "--grid-mm, --rim-mm: expected at least 900"),
+        (&["--count", "900"], "--count, --grid-mm, --rim-mm, --within, --keep-out: expected at least 900"),
         (&["--keep", "400,400"], "--keep: expected points on the surface"),
         (&["--place", "400,400"], "--place: expected points on the surface"),
         (&["--rim-mm", "12,6"], "--rim-mm: expected two distances"),
