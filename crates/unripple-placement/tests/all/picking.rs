@@ -101,7 +101,10 @@ fn the_best_of_few_designs_is_found_and_none_is_above_the_bound() {
         // The best choice that may repeat places leaves no less, and adds no more, than is said of the one that was found.
         let before = all.log_det(&[]);
         assert!(((found - most_repeated) / unknowns as f64).exp() >= least - 1e-9, "seed {seed}");
-        assert!((found - before) / (most_repeated - before) >= bound.added(&all, found) - 1e-9, "seed {seed}");
+        assert!(
+            (found - before) / (most_repeated - before) >= bound.added(&all, found) - 1e-9,
+            "seed {seed}"
+        );
     }
 }
 
