@@ -96,8 +96,11 @@ pub fn run_with(
     let mut course = Course::default();
     let asker = (!ask.no_ask).then_some(asker);
     let gone = source::keeping(|| go(&search, &folder, asker, crew, &mut course, progress));
-    // Also of a search that could not go on: what has been computed is there.
-    table::write(&folder.file(TABLE), search.file(), &search.names(), &course.told)?;
+    let file = folder.file(TABLE);
+    // Also of a search that could not go on, unless more is there already, as before one of its first generations came to be refused.
+    if gone.is_ok() || table::rows(&file) <= course.told.len() {
+        table::write(&file, search.file(), &search.names(), &course.told)?;
+    }
     gone?;
     let mut report = Report::of(&search, &course)?;
     report.files.push(TABLE.into());

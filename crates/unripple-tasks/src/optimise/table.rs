@@ -5,6 +5,7 @@ use crate::TaskError;
 use crate::sweep::{field, text};
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::fs;
 use std::io::Write;
 use std::path::Path;
 use unripple_store::{SearchFile, write_durably};
@@ -31,6 +32,12 @@ pub(super) fn write(
         told.iter().try_for_each(|told| write!(file, "{}\r\n", line(told, names, &figures, bounded)))
     };
     Ok(write_durably(path, fill)?)
+}
+
+/// Number of designs in a table; 0 where there is none.
+pub(super) fn rows(path: &Path) -> usize {
+    let lines = fs::read_to_string(path).map_or(0, |text| text.matches("\r\n").count());
+    lines.saturating_sub(1)
 }
 
 /// The figures that any design has, in the order in which they come first.

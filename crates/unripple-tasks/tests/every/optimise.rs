@@ -156,10 +156,11 @@ fn a_search_that_was_cut_short_goes_on_to_the_same_table() {
         false => halving(folder, generation),
         true => Err(TaskError::Work("gone".into())),
     };
-    for _ in 0..4 {
+    for turn in 1..5 {
         asked.set(false);
         let error = run_with(&scratch.ask(PLAN, "between"), &once, None, &mut Silent).unwrap_err();
         assert_eq!(error.to_string(), "gone");
+        assert_eq!(scratch.read("between/table.csv").lines().count(), 1 + 3 * turn);
     }
     let report =
         run_with(&Ask { no_ask: true, ..scratch.ask(PLAN, "between") }, &once, None, &mut Silent).unwrap();
@@ -242,7 +243,8 @@ fn a_search_may_be_made_longer_and_no_other_goes_into_its_folder() {
     let first = scratch.read("out/table.csv");
     let report = searched(&scratch.ask(PLAN, "out"));
     assert_eq!(report.designs, 15);
-    assert!(scratch.read("out/table.csv").starts_with(&first));
+    let whole = scratch.read("out/table.csv");
+    assert!(whole.starts_with(&first));
     let refused = |plan: &str| run_with(&scratch.ask(plan, "out"), &halving, None, &mut Silent).unwrap_err();
     let error = refused(&PLAN.replace("generations = 5", "generations = 5\nseed = 2"));
     assert!(error.is_bad_input() && error.to_string().contains("found those of another"), "{error}");
@@ -250,6 +252,8 @@ fn a_search_may_be_made_longer_and_no_other_goes_into_its_folder() {
     fs::write(scratch.0.join("out/asked/4.toml"), other).unwrap();
     let error = refused(PLAN);
     assert!(error.to_string().contains("asked/4.toml: expected designs of this search"), "{error}");
+    // No shorter table takes the place of one that is whole.
+    assert_eq!(scratch.read("out/table.csv"), whole);
 }
 
 #[test]
