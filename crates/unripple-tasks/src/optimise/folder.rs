@@ -125,7 +125,11 @@ impl<'s> Folder<'s> {
         progress: &mut dyn Progress,
     ) -> Result<Vec<Row>, TaskError> {
         let file = self.plan(generation);
-        let plan = Plan::open(&file)?;
+        let plan = match Plan::open(&file) {
+            Ok(plan) if self.search.owns(&plan) => plan,
+            // It says where files are from where the folder was when it was asked for; the folder may have been moved.
+            Ok(_) | Err(_) => Plan::open_from(self.search.origin(), &file)?,
+        };
         if !self.search.owns(&plan) {
             return Err(TaskError::Input(format!(
                 "{}: expected designs of this search: its task, surface, options and figures, and a value for each unknown; found those of \

@@ -47,6 +47,11 @@ impl Search {
         &self.file
     }
 
+    /// The folder that the plan names files from.
+    pub(super) fn origin(&self) -> &Path {
+        &self.origin
+    }
+
     /// SHA-256, in hexadecimal digits, of all that the designs of a search follow from, but for the optimiser itself.
     pub fn hash(&self) -> &str {
         &self.hash

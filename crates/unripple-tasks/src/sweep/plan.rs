@@ -71,6 +71,20 @@ impl Plan {
     /// # Errors
     /// Those of [`open`](Self::open) but for faults of the file.
     pub(crate) fn of(path: &Path, file: PlanFile) -> Result<Self, TaskError> {
+        let origin = origin(path, file.folder.as_deref());
+        Self::with_files_from(&origin, path, file)
+    }
+
+    /// As [`open`](Self::open), with files named from another folder than the plan says.
+    ///
+    /// # Errors
+    /// Those of [`open`](Self::open).
+    pub(crate) fn open_from(origin: &Path, path: &Path) -> Result<Self, TaskError> {
+        Self::with_files_from(origin, path, load_plan(path, &tasks())?)
+    }
+
+    /// The plan that was read from a file at `path`, and names files from the folder `origin`.
+    fn with_files_from(origin: &Path, path: &Path, file: PlanFile) -> Result<Self, TaskError> {
         let shown = path.display();
         let varies = |pointer: &&String| is_of_the_clock(pointer) || pointer.split('/').nth(1) == Some("run");
         if let Some(pointer) = file.figures.iter().find(varies) {
@@ -79,9 +93,8 @@ impl Plan {
                 "{shown}: figures: {expected}, found `{pointer}`, a time by the clock or a record of the run"
             )));
         }
-        let origin = origin(path, file.folder.as_deref());
-        let (ground, surface_sha256) = Ground::of(&origin, &file.surface)?;
-        let files = Files::of(&origin, ground.folder());
+        let (ground, surface_sha256) = Ground::of(origin, &file.surface)?;
+        let files = Files::of(origin, ground.folder());
         let asked = files.named(files::asked(&file).iter().map(|(varied, value)| (varied, *value)));
         let mut named = files.named(files::values(&file.designs).into_iter());
         named.extend(asked.clone());

@@ -224,6 +224,11 @@ fn files_are_named_from_the_folder_of_the_plan_and_a_change_is_noticed() {
     };
     let report = run_with(&ask, &both, None, &mut Silent).unwrap();
     assert_eq!((report.designs, report.failed), (2, 0), "{report:?}");
+    // The folder may be moved, though its plans say where files are from where it was.
+    fs::rename(scratch.0.join("some/out"), scratch.0.join("moved")).unwrap();
+    let moved = run_with(&scratch.ask(COMPARE, "moved"), &both, None, &mut Silent).unwrap();
+    assert_eq!((moved.designs, &moved.best), (2, &report.best));
+    fs::rename(scratch.0.join("moved"), scratch.0.join("some/out")).unwrap();
     let read: Vec<_> = Record::of(&ask).unwrap().files.into_iter().map(|file| file.path).collect();
     let named = ["plan.toml", "first.toml", "low.toml", "high.toml"];
     assert_eq!(read, named.map(|name| scratch.0.join(name)));
