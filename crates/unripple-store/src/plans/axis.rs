@@ -124,9 +124,15 @@ fn list(entry: &Entry, faults: &mut Faults) -> Option<AxisValues> {
     read.into_iter().collect::<Option<_>>().map(AxisValues::List)
 }
 
-/// The values among which a search chooses: two at least, each once.
+/// The values among which a search chooses: two at least, each once. Numbers among them leave room for differences, as those of a range do.
 fn choices(entry: &Entry, faults: &mut Faults) -> Option<AxisValues> {
     let Some(AxisValues::List(values)) = list(entry, faults) else { return None };
+    let items = entry.items()?;
+    let numbers = items.iter().filter(|item| item.is_number());
+    let numbers: Vec<Option<f64>> = numbers.map(|item| item.number(&ANY, faults)).collect();
+    if numbers.contains(&None) {
+        return None;
+    }
     let is_second = |at: usize| values[..at].contains(&values[at]);
     if values.len() < 2 || (0..values.len()).any(is_second) {
         entry.refuse("a list of at least two values to choose from, each once", None, faults);

@@ -309,6 +309,10 @@ fn bad_plans_are_refused_with_their_place() {
             "at least two values to choose from",
         ),
         (
+            PLAN.replace("[\"BoPET\", \"no such material\"]", "[-1e308, 1, 1e100]"),
+            "axis[1].values[0]: expected a number from -1.0e100 to 1.0e100",
+        ),
+        (
             PLAN.replace("generations = 5", "generations = 5\npopulation = 0"),
             "optimise.population: expected a whole number from 4",
         ),
