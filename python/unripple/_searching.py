@@ -33,7 +33,8 @@ def optimise(plan: _types.Path, output: _types.Path, **options: Unpack[_plan_typ
 
     The designs of one generation after the other are asked for by an optimiser, and computed: in this process, by `jobs` processes, or with
     `client` by the workers of Dask. What is in the folder already is neither asked for nor computed again, so that a search that was stopped
-    goes on where it was, from here or from the command line.
+    goes on where it was, from here or from the command line. A design of an earlier generation that is asked for once more is computed once
+    more by `jobs` and `client`, and by this process not.
 
     Parameters
     ----------
