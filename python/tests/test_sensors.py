@@ -35,7 +35,7 @@ def test_options() -> None:
         ({"apart_mm": -1}, "apart_mm"),
         ({"snr_db": 1000}, "snr_db"),
         ({"profile": 9}, "profile"),
-        ({"grid_mm": None, "place": [(10, 20)]}, "place, grid_mm, rim_mm"),
+        ({"grid_mm": None, "place": [(10, 20)]}, "count, place"),
     ],
 )
 def test_errors_name_what_was_typed(film: ur.Surface, options: dict[str, Any], field: str) -> None:
