@@ -165,7 +165,7 @@ fn spread_targets(ask: &Ask, responses: &SampledResponses) -> Result<(Vec<Aim>, 
     let conditions = &responses.conditions;
     let rules = target_rules(ask, conditions.lambda_min);
     let free = |at: &Point| responses.ports.iter().all(|port| port.at.distance(*at) > SAME);
-    let may = |at: &&Point| rules.allow(&conditions.outline, **at) && free(*at);
+    let may = |at: &&Point| rules.allow(&conditions.outline, **at) && free(at);
     let mut left: Vec<Point> = responses.points.iter().filter(may).copied().collect();
     let count = left.len().min((1 + TESTED) * ask.targets);
     let mut aims = Vec::with_capacity(count);
