@@ -181,16 +181,20 @@ mod tests {
             Self { basis, layout, values, lines, count, top }
         }
 
+        fn system(&self, values: &Values, taps: &[Point]) -> System {
+            System::new(&self.basis, &self.layout, values, taps, (self.count, self.top)).unwrap()
+        }
+
         fn gathered(&self, sensing: Sensing, places: &[Point]) -> Vec<Gathered> {
             let Self { basis, layout, values, lines, .. } = self;
-            let system = System::new(basis, layout, values, &[], (self.count, self.top)).unwrap();
+            let system = self.system(values, &[]);
             Study { basis, layout, values, lines, sensing }.gathered(&system, places).unwrap()
         }
 
         /// The Jacobian of the fit's residual of a tap, as loud as the model is with a unit impulse of force.
         fn jacobian(&self, place: Point) -> Mat<f64> {
             let Self { basis, layout, values, lines, count, top } = self;
-            let system = System::new(basis, layout, values, &[place], (*count, *top)).unwrap();
+            let system = self.system(values, &[place]);
             let answers = system.admittances(&lines.frequencies);
             let heard = |a: usize| -> Vec<c64> {
                 answers.iter().map(|y| y[(a, layout.actuators)] * values.sense[a].exp()).collect()
@@ -255,9 +259,13 @@ mod tests {
         let place = Point::from_mm(61.0, 47.0);
         let gathered = film.gathered(Sensing::Sweeps, &[place]).remove(0);
         let (actuators, lines) = (film.layout.actuators, &film.lines.frequencies);
+        let held = film.system(&film.values, &[place]);
         let responses = |values: &Values| -> Vec<f64> {
-            let system =
-                System::new(&film.basis, &film.layout, values, &[place], (film.count, film.top)).unwrap();
+            let mut system = film.system(values, &[place]);
+            // Of the flexibility of modes that are left out, derivatives have none, nor have those of the fit: it is held, with its decay rate,
+            // the last one.
+            system.rest = held.rest;
+            system.sheet.sigmas.push(held.sheet.sigmas[held.sheet.sigmas.len() - 1]);
             let answers = system.admittances(lines);
             let heard = |a: usize| {
                 answers.iter().map(move |y| y[(actuators, a)] * values.drive[a].exp()).collect::<Vec<c64>>()

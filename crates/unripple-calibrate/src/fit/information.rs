@@ -74,6 +74,8 @@ pub struct Information {
 /// The Fisher information that a measurement at each of some places (m) would have of the unknowns that [`fit`](super::fit()) finds for a
 /// surface, by the Jacobian of the fit's own model at the values of the surface file. What a fit finds at each place anew is eliminated (as a
 /// Schur complement): gain and delay of the sensor, or the force of the tap; and so is what modes far above the band add to responses.
+/// As in the fit, derivatives neglect that the residual flexibility, of the modes that are left out, changes with the stiffness: under loads
+/// far heavier than usual actuators that would count.
 ///
 /// # Errors
 /// [`CalibrateError::Count`] for a surface without actuators (for taps, with fewer than two), without modes in the band or in the basis, or
