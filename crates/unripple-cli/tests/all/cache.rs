@@ -26,8 +26,8 @@ fn figures(output: &Output) -> Value {
 fn a_second_run_finds_what_the_first_has_computed() {
     let scratch = Scratch::new("cache");
     let folder = &scratch.join("kept");
-    // Few modes, but several meshes.
-    let modes = ["modes", "stadium-film", "--accuracy", "1e-4", "--max-hz", "800", "--json"];
+    // Meshes of some seconds.
+    let modes = ["modes", "stadium-film", "--accuracy", "1e-4", "--max-hz", "2000", "--json"];
     let computed = run("", &modes);
     let look = |arguments: &[&str]| json(&run(folder, &[&["cache", "--json"], arguments].concat()));
     assert_eq!(look(&[])["entries"], 0);
