@@ -157,7 +157,7 @@ fn an_unknown_scale_and_a_dead_actuator_stay_so() {
 #[test]
 fn a_late_probe_is_moved_back_before_it_corrects_the_model() {
     let scratch = Scratch::new("fit-late");
-    let file = scratch.file("film.toml", film_to(600.0));
+    let file = scratch.file("film.toml", film());
     let (heard, fitted) = (scratch.join("heard"), scratch.join("fitted"));
     let points = ["--at", "62,90", "--at", "100,60", "--at", "45,50"];
     json(&[&["calibrate", &file, "--unknowns", "7", "-o", &heard][..], &points].concat());
