@@ -176,7 +176,7 @@ fn a_late_probe_is_moved_back_before_it_corrects_the_model() {
     drop(library);
     let report = json(&["fit", &heard, "--at", "62,90", "-o", &fitted]);
     println!("{report:#}");
-    assert!(said(&report, "notes").contains("ms later than the sensors"));
+    assert!(said(&report, "notes").contains("ms later than those of the sensors"));
     assert!(report.get("left_out").is_none(), "{report:#}");
     let blended = Library::open(&fitted).unwrap().get(0).unwrap();
     let (mut off, mut all) = (0.0, 0.0);
@@ -215,11 +215,11 @@ fn coils_on_a_voltage_are_fitted_with_their_circuits() {
     let file = scratch.file("film.toml", to_toml(&film));
     let (heard, fitted) = (scratch.join("heard"), scratch.join("fitted"));
     let measured = json(&["calibrate", &file, "--unknowns", "7", "--at", "100,60", "-o", &heard]);
-    assert!(!said(&measured, "notes").contains("later than the sensors"), "{measured:#}");
+    assert!(!said(&measured, "notes").contains("later than those of the sensors"), "{measured:#}");
     let report = json(&["fit", &heard, "--at", "62,90", "--at", "100,60", "-o", &fitted]);
     println!("{report:#}");
     assert!(report["verdict"] == "good" && number(&report, "/unexplained") < 0.01, "{report:#}");
-    assert!(!said(&report, "notes").contains("later than the sensors"), "{report:#}");
+    assert!(!said(&report, "notes").contains("later than those of the sensors"), "{report:#}");
     let plant = Responses::Modal(truth(&film, 7));
     let known = Responses::Sampled(Library::open(&fitted).unwrap().responses().unwrap());
     for at in [Point::from_mm(62.0, 90.0), Point::from_mm(100.0, 60.0)] {

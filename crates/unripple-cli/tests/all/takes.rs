@@ -253,7 +253,8 @@ fn a_probes_delay_is_taken_out_once_and_of_all_points() {
     assert!(output.status.success(), "{said}");
     let (raw, chunk) = (response(&bench.library, 0), format!("{}/responses/c.0.0.0", bench.library));
     let bytes = std::fs::read(&chunk).unwrap();
-    let taken_out = |told: &Value| told["notes"].to_string().contains("ms later than the sensors: corrected");
+    let taken_out =
+        |told: &Value| told["notes"].to_string().contains("ms later than those of the sensors: corrected");
     let (output, told, said) = bench.calibrate(2, &[]);
     assert!(output.status.success() && taken_out(&told), "{said}");
     let mended = response(&bench.library, 0);
