@@ -179,7 +179,8 @@ fn missing_surplus_and_added_takes() {
     let (output, _, said) = bench.calibrate(3, &["--repeats", "2", "--sweep-ms", "400"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(
-        said.contains("\"sweep_s\": 0.5 there, 0.4 asked for") && said.contains("\"sweeps_begin_s\": ["),
+        said.contains("\"sweep_s\": 0.5 in the folder, 0.4 requested")
+            && said.contains("\"sweeps_begin_s\": ["),
         "{said}"
     );
     assert!(!said.contains("..."), "{said}");
