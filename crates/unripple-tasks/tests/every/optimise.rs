@@ -108,6 +108,11 @@ impl Progress for After {
     }
 }
 
+/// Number of lines of a table, its heading among them: texts of errors may have several of their own, which end otherwise.
+fn lines(table: &str) -> usize {
+    table.matches("\r\n").count()
+}
+
 #[test]
 fn a_search_tells_what_it_has_computed_and_reports_the_best() {
     let scratch = Scratch::new("search-best");
@@ -134,7 +139,7 @@ fn a_search_tells_what_it_has_computed_and_reports_the_best() {
     assert!(table.starts_with(
         "index,generation,surface:sheet.tension_n_per_m,surface:sheet.material,hash,version,/frequencies_hz/0,/decay_times_s/0,/count,violation,error\r\n0,0,250,BoPET,"
     ));
-    assert_eq!(table.lines().count(), 16);
+    assert_eq!(lines(&table), 16);
     assert!(!scratch.0.join("out/asked/0.json").exists());
 }
 
@@ -160,7 +165,7 @@ fn a_search_that_was_cut_short_goes_on_to_the_same_table() {
         asked.set(false);
         let error = run_with(&scratch.ask(PLAN, "between"), &once, None, &mut Silent).unwrap_err();
         assert_eq!(error.to_string(), "gone");
-        assert_eq!(scratch.read("between/table.csv").lines().count(), 1 + 3 * turn);
+        assert_eq!(lines(&scratch.read("between/table.csv")), 1 + 3 * turn);
     }
     let report =
         run_with(&Ask { no_ask: true, ..scratch.ask(PLAN, "between") }, &once, None, &mut Silent).unwrap();
