@@ -212,7 +212,7 @@ fn levels_need_a_scale() {
     assert!(text.contains("unknown"), "{text}");
     let output = bench.focus(&["--peak-um", "5"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("--peak-um: expected a library whose level"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("--peak-um: expected a library whose scale"));
 
     // Nor is anything told of levels where it is played, nor set by them.
     let play = ["play", &bench.library, "--seconds", "0.5", "--fingers", "1"];
