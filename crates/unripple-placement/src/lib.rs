@@ -41,6 +41,7 @@
 //! # Ok::<(), unripple_placement::PlacementError>(())
 //! ```
 
+mod apart;
 mod approximate;
 mod basis;
 mod chosen;

@@ -1,18 +1,13 @@
 //! D-optimal choices of single places: greedy start, exchange to a local optimum, restarts.
 
+use crate::apart::{are_apart, random};
 use crate::informations::{Solved, log_det_of};
 use crate::{Informations, PlacementError};
 use rayon::prelude::*;
-use unripple_core::{Point, Random};
+use unripple_core::Point;
 
 /// Least gain of ln det for which a place is exchanged. With much less, rounding errors would exchange places for ever.
 const GAIN: f64 = 1e-9;
-
-/// Distance in metres below which two places are one.
-const COINCIDENT: f64 = 1e-6;
-
-/// Random choices that are tried before places count as too close to each other.
-const TRIES: usize = 100;
 
 /// What is added to the information while places are sought, in the units of [`Informations`]: with few places it is singular.
 const RIDGE: f64 = 1e-9;
@@ -70,28 +65,7 @@ impl Picking<'_> {
     /// # Errors
     /// [`PlacementError::Few`] if none was found that keeps the least distance.
     pub fn random(&self, count: usize, choices: usize, seed: u64) -> Result<Vec<Vec<usize>>, PlacementError> {
-        let mut random = Random::seeded(seed);
-        let all = self.at.len();
-        let mut most = 0;
-        let mut one = || {
-            for _ in 0..TRIES {
-                let mut places: Vec<usize> = Vec::new();
-                let mut order: Vec<usize> = (0..all).collect();
-                for i in 0..all {
-                    let j = i + ((random.uniform() * (all - i) as f64) as usize).min(all - i - 1);
-                    order.swap(i, j);
-                    if places.len() < count && self.is_free(&places, order[i]) {
-                        places.push(order[i]);
-                    }
-                }
-                if places.len() == count {
-                    return Ok(places);
-                }
-                most = most.max(places.len());
-            }
-            Err(PlacementError::Few { expected: count, found: most })
-        };
-        (0..choices).map(|_| one()).collect()
+        random(0..self.at.len(), count, choices, seed, |chosen, b| self.is_free(chosen, b))
     }
 
     /// A choice in which no single place can be exchanged for a better one: each in turn is exchanged for the best, until none gains.
@@ -109,7 +83,7 @@ impl Picking<'_> {
 
     /// Whether a place keeps its distance from those of a choice, and is none of them.
     pub fn is_free(&self, places: &[usize], b: usize) -> bool {
-        let far = |at: &Point| at.distance(self.at[b]) >= self.apart.max(COINCIDENT);
+        let far = |at: &Point| are_apart(*at, self.at[b], self.apart);
         places.iter().all(|a| *a != b && far(&self.at[*a])) && self.kept.iter().all(far)
     }
 

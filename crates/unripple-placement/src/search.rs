@@ -1,17 +1,12 @@
 //! The search for the best places: greedy start, exchange to a local optimum, restarts.
 
+use crate::apart::{are_apart, random};
 use crate::{Chosen, Forms, Objective, PlacementError};
 use rayon::prelude::*;
-use unripple_core::{Point, Random};
+use unripple_core::Point;
 
 /// Least relative gain for which an actuator is moved. With much less, rounding errors of single precision would move actuators for ever.
 const GAIN: f64 = 1e-5;
-
-/// Distance in metres below which two places are one. No actuator is that small.
-const COINCIDENT: f64 = 1e-6;
-
-/// Number of random layouts that are tried before the places count as too close to each other.
-const TRIES: usize = 100;
 
 /// A search for the best layout: quadratic forms, places, kept actuators, least distance and objective.
 #[derive(Clone, Copy, Debug)]
@@ -73,28 +68,7 @@ impl Search<'_> {
     /// # Errors
     /// [`PlacementError::Few`] if none was found that keeps the least distance.
     pub fn random(&self, count: usize, layouts: usize, seed: u64) -> Result<Vec<Vec<usize>>, PlacementError> {
-        let mut random = Random::seeded(seed);
-        let places = self.at.len() - self.kept;
-        let mut most = 0;
-        let mut one = || {
-            for _ in 0..TRIES {
-                let mut layout: Vec<usize> = (0..self.kept).collect();
-                let mut order: Vec<usize> = (self.kept..self.at.len()).collect();
-                for i in 0..places {
-                    let j = i + ((random.uniform() * (places - i) as f64) as usize).min(places - i - 1);
-                    order.swap(i, j);
-                    if layout.len() < self.kept + count && self.is_free(&layout, order[i]) {
-                        layout.push(order[i]);
-                    }
-                }
-                if layout.len() == self.kept + count {
-                    return Ok(layout);
-                }
-                most = most.max(layout.len() - self.kept);
-            }
-            Err(PlacementError::Few { expected: count, found: most })
-        };
-        (0..layouts).map(|_| one()).collect()
+        random(self.kept..self.at.len(), count, layouts, seed, |chosen, b| self.is_free(chosen, b))
     }
 
     /// The value of the objective for a layout, a contrast (ratio).
@@ -147,7 +121,7 @@ impl Search<'_> {
 
     /// Whether an actuator is at least [`Search::apart`] away from all those of a set, and is none of them.
     pub fn is_free(&self, set: &[usize], b: usize) -> bool {
-        let far = |a: usize| self.at[a].distance(self.at[b]) >= self.apart.max(COINCIDENT);
+        let far = |a: usize| are_apart(self.at[a], self.at[b], self.apart);
         set.iter().all(|a| *a != b && far(*a))
     }
 }
