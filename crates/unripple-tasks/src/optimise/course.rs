@@ -3,10 +3,9 @@
 use super::Search;
 use super::front::Front;
 use super::good::Step;
-use super::told::Told;
+use super::told::{Told, turned};
 use crate::sweep::Row;
 use std::collections::HashMap;
-use unripple_store::Want;
 
 /// All that is known of a search so far.
 #[derive(Default)]
@@ -43,7 +42,7 @@ impl Course {
         let best = match (search.file().objectives.as_slice(), self.front.places()) {
             ([only], [first, ..]) => {
                 let loss = self.told[*first].feasible().and_then(|losses| losses.first().copied());
-                loss.map(|loss| if only.want == Want::Most { -loss } else { loss })
+                loss.map(|loss| turned(only.want, loss))
             }
             _ => None,
         };

@@ -1,9 +1,9 @@
 //! Pictures of a search: the value of each design in turn, or the trade-offs between each two objectives.
 
 use super::front::Front;
-use super::told::Told;
+use super::told::{Told, turned};
 use unripple_plot::{Axis, Figure, Ink, Line, Panel, Plot, Points};
-use unripple_store::{Objective, Want};
+use unripple_store::Objective;
 
 /// Most pairs of objectives that are drawn: a page has no room for more.
 const PANELS: usize = 6;
@@ -33,7 +33,7 @@ pub(super) fn all(objectives: &[Objective], told: &[Told], front: &Front) -> Opt
 /// The value of an objective of a design that keeps all constraints, as its report has it; not-a-number of any other.
 fn value(objectives: &[Objective], at: usize, told: &Told) -> f64 {
     let loss = told.feasible().and_then(|losses| losses.get(at).copied()).unwrap_or(f64::NAN);
-    if objectives[at].want == Want::Most { -loss } else { loss }
+    turned(objectives[at].want, loss)
 }
 
 /// The designs that are marked: all, or evenly some of them.
@@ -50,8 +50,7 @@ fn course(objective: &Objective, told: &[Told]) -> Panel {
     let mut line = Line { ink: Ink::Palette(1), label: "best so far".into(), ..Line::default() };
     for told in told {
         let found = of(told);
-        let better = if objective.want == Want::Most { found > best } else { found < best };
-        if better || best.is_nan() {
+        if best.is_nan() || turned(objective.want, found) < turned(objective.want, best) {
             best = found;
         }
         line.x.push(told.index as f64);

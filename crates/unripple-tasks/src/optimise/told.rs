@@ -54,6 +54,11 @@ impl Told {
     }
 }
 
+/// The loss of a value of an objective, and the value of a loss.
+pub(super) fn turned(want: Want, value: f64) -> f64 {
+    if want == Want::Most { -value } else { value }
+}
+
 /// The losses of a row, and how far it is out of its bounds; otherwise why neither is known.
 fn judged(search: &SearchFile, row: &Row) -> Result<(Vec<f64>, f64), String> {
     if let Some(error) = &row.error {
@@ -64,9 +69,8 @@ fn judged(search: &SearchFile, row: &Row) -> Result<(Vec<f64>, f64), String> {
         found.ok_or_else(|| format!("no number at {figure}"))
     };
     let losses = search.objectives.iter().map(|objective| -> Result<f64, String> {
-        let found = number(&objective.figure)?;
         // One zero, of which no sign is before another.
-        Ok(0.0 + if objective.want == Want::Most { -found } else { found })
+        Ok(0.0 + turned(objective.want, number(&objective.figure)?))
     });
     let losses = losses.collect::<Result<Vec<f64>, String>>()?;
     let mut violation = 0.0;
