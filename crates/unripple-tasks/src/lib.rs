@@ -76,6 +76,7 @@ mod surface;
 pub mod sweep;
 pub mod target;
 pub mod text_forms;
+mod thinned;
 pub mod waveform;
 mod window;
 

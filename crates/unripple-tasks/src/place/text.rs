@@ -2,10 +2,8 @@
 
 use super::Report;
 use super::placed::Layout;
+use crate::thinned::thinned;
 use std::fmt::Write;
-
-/// Rows of the table of numbers of actuators that are printed: all are in the JSON.
-const ROWS: usize = 12;
 
 impl Report {
     /// The report as Markdown, with its figures.
@@ -139,16 +137,14 @@ fn search(text: &mut String, report: &Report) {
 /// The contrast of every number of actuators, or of some where there are many.
 fn numbers(text: &mut String, report: &Report) {
     let all = &report.each_number;
-    let step = all.len().div_ceil(ROWS).max(1);
     let _ = writeln!(text, "\nactuators  contrast: mean   worst");
-    for (i, number) in all.iter().enumerate() {
-        if (i + 1) % step == 0 || i == 0 || i + 1 == report.count || i + 1 == all.len() {
-            let _ = writeln!(
-                text,
-                "{:9} {:15.1} {:7.1}",
-                number.actuators, number.mean_contrast, number.worst_contrast
-            );
-        }
+    for i in thinned(all.len(), report.count) {
+        let number = &all[i];
+        let _ = writeln!(
+            text,
+            "{:9} {:15.1} {:7.1}",
+            number.actuators, number.mean_contrast, number.worst_contrast
+        );
     }
 }
 

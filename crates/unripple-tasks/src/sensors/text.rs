@@ -2,10 +2,8 @@
 
 use super::planned::below;
 use super::{Report, SensingAsk, Unknown};
+use crate::thinned::thinned;
 use std::fmt::Write;
-
-/// Rows of the table of numbers of places that are printed: all are in the JSON.
-const ROWS: usize = 12;
 
 /// Rows of the table of unknowns that are printed: all are in the JSON.
 const UNKNOWNS: usize = 24;
@@ -138,20 +136,18 @@ fn certificate(text: &mut String, report: &Report) {
 /// The deviations of every number of places, or of some where there are many.
 fn numbers(text: &mut String, report: &Report) {
     let all = &report.each_number;
-    let step = all.len().div_ceil(ROWS).max(1);
     let _ =
         writeln!(text, "\nplaces  deviation over prior: mean    worst                         efficiency");
-    for (i, number) in all.iter().enumerate() {
-        if (i + 1) % step == 0 || i == 0 || i + 1 == report.count || i + 1 == all.len() {
-            let _ = writeln!(
-                text,
-                "{:6} {:27.4} {:8.4}  {:<22} {:8.1} %",
-                number.places,
-                number.mean_deviation,
-                number.worst_deviation,
-                number.worst,
-                below(100.0 * number.efficiency, 10.0)
-            );
-        }
+    for i in thinned(all.len(), report.count) {
+        let number = &all[i];
+        let _ = writeln!(
+            text,
+            "{:6} {:27.4} {:8.4}  {:<22} {:8.1} %",
+            number.places,
+            number.mean_deviation,
+            number.worst_deviation,
+            number.worst,
+            below(100.0 * number.efficiency, 10.0)
+        );
     }
 }
