@@ -1,5 +1,6 @@
 //! The options of the command line: lengths in mm, times in ms unless an option says otherwise; and the requests that they make.
 
+mod areas;
 mod calibrate;
 mod compare;
 mod drift;
@@ -23,6 +24,7 @@ mod view;
 use crate::common::Common;
 use crate::error::CliError;
 use crate::typed::{positive, seconds};
+pub use areas::AreaOptions;
 pub use calibrate::{CalibrateOptions, DeviceOptions};
 use clap::{Args, Parser, Subcommand};
 pub use compare::CompareOptions;

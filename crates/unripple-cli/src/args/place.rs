@@ -1,14 +1,14 @@
 //! Options of `unripple place`.
 
 use super::names::{MethodName, ObjectiveName};
-use super::{FigureOptions, examples, heading};
+use super::{AreaOptions, FigureOptions, examples, heading};
 use crate::common::Common;
 use crate::error::CliError;
-use crate::typed::{each, of, places, seconds};
+use crate::typed::{each, of, seconds};
 use clap::Args;
 use std::path::PathBuf;
 use unripple_tasks::place::Ask;
-use unripple_tasks::text_forms::{distances, polygon, weighted};
+use unripple_tasks::text_forms::{polygon, weighted};
 
 /// Options of `place`.
 #[derive(Debug, Args)]
@@ -31,18 +31,8 @@ pub struct PlaceOptions {
     /// one.
     #[arg(long, value_name = "NAME", help_heading = heading::ACTUATORS)]
     pub like: Option<String>,
-    /// Least and greatest distance of places from the rim, in mm; by default anywhere.
-    #[arg(long, value_name = "LEAST,MOST", help_heading = heading::PLACES)]
-    pub rim_mm: Option<String>,
-    /// A polygon in which places must lie, as its corners in mm. Repeatable: then in any of them.
-    #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::PLACES)]
-    pub within: Vec<String>,
-    /// A polygon in which no place may lie, as its corners in mm. Repeatable.
-    #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::PLACES)]
-    pub keep_out: Vec<String>,
-    /// A place to choose from, in mm, instead of those of a grid. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::PLACES)]
-    pub place: Vec<String>,
+    #[command(flatten)]
+    pub areas: AreaOptions,
     /// Spacing of the grid of places to choose from, in mm; by default a seventh of the shortest wavelength.
     #[arg(long, value_name = "P", allow_negative_numbers = true, help_heading = heading::PLACES)]
     pub grid_mm: Option<f64>,
@@ -110,10 +100,10 @@ impl PlaceOptions {
             keep: self.keep.clone(),
             keep_all: self.keep_all,
             like: self.like.clone(),
-            rim_m: of("--rim-mm", self.rim_mm.as_deref().map(distances).transpose())?,
-            within_m: each(&self.within, "--within", polygon)?,
-            keep_out_m: each(&self.keep_out, "--keep-out", polygon)?,
-            places_m: places(&self.place, "--place")?,
+            rim_m: self.areas.rim()?,
+            within_m: self.areas.within()?,
+            keep_out_m: self.areas.keep_out()?,
+            places_m: self.areas.places()?,
             pitch_m: self.grid_mm.map(|mm| mm / 1e3),
             apart_m: self.apart_mm.map(|mm| mm / 1e3),
             points_m,

@@ -1,13 +1,12 @@
 //! Options of `unripple sensors`.
 
-use super::{FigureOptions, examples, heading};
+use super::{AreaOptions, FigureOptions, examples, heading};
 use crate::common::Common;
 use crate::error::CliError;
-use crate::typed::{each, of, places};
+use crate::typed::places;
 use clap::Args;
 use std::path::PathBuf;
 use unripple_tasks::sensors::{Ask, SensingAsk};
-use unripple_tasks::text_forms::{distances, polygon};
 
 /// Options of `sensors`.
 #[derive(Debug, Args)]
@@ -24,18 +23,8 @@ pub struct SensorsOptions {
     /// A place that is measured in any case, in mm, beside --count others. Repeatable.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::PLACES)]
     pub keep: Vec<String>,
-    /// Least and greatest distance of places from the rim, in mm; by default anywhere.
-    #[arg(long, value_name = "LEAST,MOST", help_heading = heading::PLACES)]
-    pub rim_mm: Option<String>,
-    /// A polygon in which places must lie, as its corners in mm. Repeatable: then in any of them.
-    #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::PLACES)]
-    pub within: Vec<String>,
-    /// A polygon in which no place may lie, as its corners in mm. Repeatable.
-    #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::PLACES)]
-    pub keep_out: Vec<String>,
-    /// A place to choose from, in mm, instead of those of a grid. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::PLACES)]
-    pub place: Vec<String>,
+    #[command(flatten)]
+    pub areas: AreaOptions,
     /// Spacing of the grid of places to choose from, in mm; by default a quarter of the shortest wavelength.
     #[arg(long, value_name = "P", allow_negative_numbers = true, help_heading = heading::PLACES)]
     pub grid_mm: Option<f64>,
@@ -73,10 +62,10 @@ impl SensorsOptions {
             count: self.count,
             sensing: if self.taps { SensingAsk::Taps } else { SensingAsk::Sweeps },
             keep_m: places(&self.keep, "--keep")?,
-            rim_m: of("--rim-mm", self.rim_mm.as_deref().map(distances).transpose())?,
-            within_m: each(&self.within, "--within", polygon)?,
-            keep_out_m: each(&self.keep_out, "--keep-out", polygon)?,
-            places_m: places(&self.place, "--place")?,
+            rim_m: self.areas.rim()?,
+            within_m: self.areas.within()?,
+            keep_out_m: self.areas.keep_out()?,
+            places_m: self.areas.places()?,
             pitch_m: self.grid_mm.map(|mm| mm / 1e3),
             apart_m: self.apart_mm / 1e3,
             snr_db: self.snr_db,
