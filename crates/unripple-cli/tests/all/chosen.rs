@@ -2,39 +2,21 @@
 
 use crate::common;
 
-use common::{Scratch, json, number, refused, run};
+use common::{SMALL_FILM, Scratch, json, number, refused, run};
 use serde_json::Value;
 
+/// Places of four actuators more than the small film has, in mm.
+const MORE: [&str; 4] = ["9, 84", "95, 137", "141, 106", "40, 140"];
+
 /// A film of few modes with six actuators.
-const FILM: &str = r#"format = 1
-name = "A film with six"
-[outline]
-rectangle_mm = [150, 150]
-[sheet]
-material = "BoPET"
-thickness_mm = 0.125
-tension_n_per_m = 200
-decay_time_ms = 70
-[drive]
-band_hz = [0, 700]
-sample_rate_hz = 8000
-[[actuator]]
-at_mm = [12, 31]
-[[actuator]]
-at_mm = [121, 17]
-[[actuator]]
-at_mm = [9, 84]
-[[actuator]]
-at_mm = [95, 137]
-[[actuator]]
-at_mm = [141, 106]
-[[actuator]]
-at_mm = [40, 140]
-"#;
+fn film() -> String {
+    let more = MORE.map(|at| format!("[[actuator]]\nat_mm = [{at}]\n"));
+    SMALL_FILM.replace("48000", "8000") + &more.concat()
+}
 
 /// The path of a library of the film in a folder: points 10 mm apart, responses of 30 ms.
 fn library(scratch: &Scratch) -> String {
-    let (film, library) = (scratch.file("film.toml", FILM), scratch.join("library"));
+    let (film, library) = (scratch.file("film.toml", film()), scratch.join("library"));
     let made = json(&["respond", &film, "--grid-mm", "10", "--length-ms", "30", "-o", &library]);
     assert_eq!((number(&made, "/points"), number(&made, "/actuators")), (196.0, 6.0));
     library
