@@ -159,6 +159,6 @@ mod tests {
         let text = canonical(&json!({ "b": [1.5, null], "a": { "d": "x", "c": 2 } }));
         assert_eq!(text, r#"{"a":{"c":2,"d":"x"},"b":[1.5,null]}"#);
         let numbers = json!([150, 150.0, -3.0, 0.1, 1e300, u64::MAX]);
-        assert_eq!(canonical(&numbers), "[150,150,-3,0.1,1e300,18446744073709551615]");
+        assert_eq!(canonical(&numbers), "[150,150,-3,0.1,1e+300,18446744073709551615]");
     }
 }
