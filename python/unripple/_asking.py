@@ -114,9 +114,11 @@ class _Optimiser(Protocol):
 
     def name(self) -> str:
         """Return what it calls itself, with its version."""
+        ...
 
     def ask(self) -> list[Design]:
         """Return the designs of the next generation."""
+        ...
 
     def tell(self, told: Sequence[Mapping[str, Any]]) -> None:
         """Take losses and violations of the generation that was asked for last."""
