@@ -4,20 +4,26 @@ use crate::profile::PROFILE;
 use crate::sources;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// How many of the blocks that took longest are named at the end.
+const NAMED: usize = 12;
 
 /// Runs the ```sh blocks of README.md and docs/*.md, each page in a folder of its own; returns those that failed.
 ///
 /// README blocks run at the top of the checkout; guide blocks run with `unripple` on the path. Both use the program that was built beside
 /// this one: `cargo run --release -- …` there is that program with those arguments ([`SHIM`]), so that nothing is compiled a second time in
-/// another profile. All other commands of cargo are cargo's own.
+/// another profile. All other commands of cargo are cargo's own. What one command has computed is kept for those after it, as on a reader's
+/// machine, but in a folder of its own, which is empty at first.
 pub fn run_all(root: &Path) -> Vec<String> {
     let scratch = root.join("target/docs");
+    let _ = std::fs::remove_dir_all(scratch.join("cache"));
     let path = match search_path(&scratch) {
         Ok(path) => path,
         Err(reason) => return vec![reason],
     };
     let mut faults = Vec::new();
-    let mut count = 0;
+    let mut took = Vec::new();
     let mut pages = vec![root.join("README.md")];
     pages.extend(sources::files(&root.join("docs"), &[".md"]));
     for page in pages {
@@ -25,17 +31,30 @@ pub fn run_all(root: &Path) -> Vec<String> {
         let folder =
             if page.ends_with("README.md") { root.to_path_buf() } else { page_folder(&scratch, &page) };
         for block in blocks(&text, "sh") {
-            count += 1;
-            eprintln!("{}:\n{block}", page.file_name().unwrap_or_default().to_string_lossy());
+            let name = page.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            eprintln!("{name}:\n{block}");
+            let began = Instant::now();
             if let Err(reason) = run(&block, &folder, &path) {
                 faults.push(format!("{}: {reason}\n{block}", page.display()));
             }
+            took.push((began.elapsed(), name, block));
         }
     }
-    if count == 0 {
+    if took.is_empty() {
         faults.push("no shell block was found in README.md or docs".into());
     }
+    tell(took);
     faults
+}
+
+/// Prints how long all blocks took, and those that took longest.
+fn tell(mut took: Vec<(Duration, String, String)>) {
+    let all: Duration = took.iter().map(|(time, ..)| *time).sum();
+    took.sort_by_key(|(time, ..)| std::cmp::Reverse(*time));
+    println!("{} blocks in {:.0} s; the longest:", took.len(), all.as_secs_f64());
+    for (time, page, block) in took.iter().take(NAMED) {
+        println!("{:6.1} s  {page}: {}", time.as_secs_f64(), block.lines().next().unwrap_or_default());
+    }
 }
 
 /// Stands for `cargo` while the blocks run.
@@ -56,6 +75,8 @@ struct SearchPath {
     before: String,
     /// With the folders of both before all others.
     path: String,
+    /// Where results are kept.
+    cache: PathBuf,
 }
 
 fn search_path(scratch: &Path) -> Result<SearchPath, String> {
@@ -73,9 +94,10 @@ fn search_path(scratch: &Path) -> Result<SearchPath, String> {
     #[cfg(unix)]
     std::fs::set_permissions(&shim, std::os::unix::fs::PermissionsExt::from_mode(0o755)).map_err(said)?;
     let folder = folder.canonicalize().map_err(said)?;
+    let cache = folder.with_file_name("cache");
     let before = std::env::var("PATH").unwrap_or_default();
     let path = format!("{}:{}:{before}", folder.display(), built.display());
-    Ok(SearchPath { program, before, path })
+    Ok(SearchPath { program, before, path, cache })
 }
 
 fn page_folder(scratch: &Path, page: &Path) -> PathBuf {
@@ -115,6 +137,7 @@ fn run(block: &str, folder: &Path, search: &SearchPath) -> Result<(), String> {
         .env("UNRIPPLE", &search.program)
         .env("UNRIPPLE_PATH", &search.before)
         .env("UNRIPPLE_INSIDE_CHECK", "1")
+        .env("UNRIPPLE_CACHE", &search.cache)
         .stdout(std::process::Stdio::null())
         .status()
         .map_err(|e| e.to_string())?;
