@@ -15,6 +15,8 @@ mod searches;
 mod sweeps;
 #[path = "every/sweep_ended.rs"]
 mod sweeps_ended;
+#[path = "every/sweep_equal.rs"]
+mod sweeps_of_equal_designs;
 #[path = "every/sweep_files.rs"]
 mod sweeps_of_files;
 #[path = "every/sweep_memory.rs"]

@@ -1,23 +1,20 @@
 //! The folder of a sweep: its plan, and the rows of each shard as a file that is complete or not there.
 
+use super::opened::{PARTS, failed, opened};
 use super::{Plan, Row};
 use crate::{Progress, TaskError, go_on};
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use unripple_store::{PlanFile, StoreError, remove_left, write_durably};
 
-/// File with the plan that the rows are of.
-const KEPT: &str = "plan.json";
-
-/// Folder of the shards that are done: a file of rows for each.
-const PARTS: &str = "parts";
-
 /// Folder of single designs whose shard is not done yet.
 const ROWS: &str = "rows";
+
+/// What makes the row of a design, by its index.
+type Compute<'c> = dyn FnMut(usize) -> Result<Row, TaskError> + 'c;
 
 /// The folder that a sweep fills.
 pub(super) struct Folder<'p> {
@@ -103,37 +100,104 @@ impl<'p> Folder<'p> {
     /// # Errors
     /// [`TaskError::Cancelled`]; [`TaskError::Work`] if the rows cannot be written.
     pub fn compute(&self, shard: usize, progress: &mut dyn Progress) -> Result<(), TaskError> {
-        let mut rows = self.computed(shard, progress)?;
-        for row in rows.iter_mut().filter(|row| row.lacks_memory) {
-            *row = Row::settled(self.plan, row.index, progress)?;
+        let mut rows = self.computed(shard, true, &mut |index| self.row_of(index, &mut *progress))?;
+        for at in 0..rows.len() {
+            if rows[at].lacks_memory {
+                let index = rows[at].index;
+                rows[at] = match self.equal_within(&rows[..at], index) {
+                    Some(row) => row,
+                    None => Row::settled(self.plan, index, progress)?,
+                };
+            }
         }
         self.put(shard, &rows)
     }
 
-    /// As [`compute`](Self::compute), while other processes may take the memory: a shard with a design that it was lacking for is only
-    /// kept, row by row, so that the design can be tried when they have ended.
+    /// As [`compute`](Self::compute), while other processes compute other shards. A shard is only kept, row by row, where memory was lacking
+    /// for a design, so that this can be tried when they have ended; and where a row is missing since an equal design is another shard's.
     ///
     /// # Errors
     /// Those of [`compute`](Self::compute).
     pub fn compute_beside_others(&self, shard: usize, progress: &mut dyn Progress) -> Result<(), TaskError> {
-        let rows = self.computed(shard, progress)?;
-        match rows.iter().any(|row| row.lacks_memory) {
-            true => rows.iter().try_for_each(|row| self.put_row(row)),
-            false => self.put(shard, &rows),
-        }
+        let rows = self.computed(shard, false, &mut |index| self.row_of(index, &mut *progress))?;
+        self.put_or_keep(shard, &rows)
     }
 
-    /// The rows of a shard, those that are kept already and those computed now.
-    fn computed(&self, shard: usize, progress: &mut dyn Progress) -> Result<Vec<Row>, TaskError> {
-        let mut rows = Vec::new();
-        for index in self.plan.shard(shard) {
-            go_on(progress)?;
-            rows.push(match self.settled(index) {
+    /// Computes the row of a design.
+    fn row_of(&self, index: usize, progress: &mut dyn Progress) -> Result<Row, TaskError> {
+        go_on(progress)?;
+        Row::computed(self.plan, index, progress)
+    }
+
+    /// The rows of a shard: those that are kept already, those of equal designs, and those of which `compute` makes one of a design. Unless
+    /// the `whole` shard is wanted, a design that is equal to one of another shard has no row until there is one of that.
+    fn computed(&self, shard: usize, whole: bool, compute: &mut Compute<'_>) -> Result<Vec<Row>, TaskError> {
+        let designs = self.plan.shard(shard);
+        let mut rows: Vec<Row> = Vec::new();
+        for index in designs.clone() {
+            let equal = || self.equal_within(&rows, index).or_else(|| self.equal_elsewhere(index));
+            let row = match self.settled(index).or_else(equal) {
                 Some(row) => row,
-                None => Row::computed(self.plan, index, progress)?,
-            });
+                None if whole || self.plan.first(index) >= designs.start => compute(index)?,
+                None => continue,
+            };
+            rows.push(row);
         }
         Ok(rows)
+    }
+
+    /// The row of a design from that of an equal one among some rows, which are in the order of their designs.
+    fn equal_within(&self, rows: &[Row], index: usize) -> Option<Row> {
+        let first = self.plan.first(index);
+        let at = rows.binary_search_by_key(&first, |row| row.index).ok().filter(|_| first < index)?;
+        rows[at].again(self.plan.design(index))
+    }
+
+    /// The row of a design from that of an equal one which is kept, or of another shard that is done.
+    pub fn equal_elsewhere(&self, index: usize) -> Option<Row> {
+        let first = self.plan.first(index);
+        if first == index {
+            return None;
+        }
+        let row = self.settled(first).or_else(|| {
+            let shard = first / self.plan.file().shard;
+            // One line of it: what is wrong with others is told when the table is made of them.
+            let text = fs::read_to_string(self.part(shard)).ok()?;
+            let line = text.lines().nth(first - self.plan.shard(shard).start)?;
+            serde_json::from_str::<Row>(line).ok()
+        })?;
+        row.again(self.plan.design(index))
+    }
+
+    /// Whether nothing is missing of a shard but rows of designs that are equal to those of earlier ones.
+    pub fn waits(&self, shard: usize) -> bool {
+        let designs = self.plan.shard(shard);
+        let mut missing = designs.clone().filter(|index| self.row(*index).is_none()).peekable();
+        missing.peek().is_some() && missing.all(|index| self.plan.first(index) < designs.start)
+    }
+
+    /// Puts the rows of equal designs into all shards in which nothing else is missing, as far as they are there.
+    ///
+    /// # Errors
+    /// [`TaskError::Work`] if the folder cannot be read, or rows cannot be written.
+    pub fn share(&self) -> Result<(), TaskError> {
+        for shard in self.missing()?.into_iter().filter(|shard| self.waits(*shard)) {
+            let row = |index: usize| self.row(index).or_else(|| self.equal_elsewhere(index));
+            let rows: Option<Vec<Row>> = self.plan.shard(shard).map(row).collect();
+            if let Some(rows) = rows {
+                self.put_or_keep(shard, &rows)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Stores the rows of a shard if they are all there and settled; otherwise those that are there, one by one.
+    fn put_or_keep(&self, shard: usize, rows: &[Row]) -> Result<(), TaskError> {
+        let whole = rows.len() == self.plan.shard(shard).len();
+        match whole && !rows.iter().any(|row| row.lacks_memory) {
+            true => self.put(shard, rows),
+            false => rows.iter().try_for_each(|row| self.put_row(row)),
+        }
     }
 
     /// Stores the rows of a shard, which is then done, and removes the rows stored for single designs of it.
@@ -219,12 +283,6 @@ fn rows_of(plan: &Plan, path: &Path, text: &str, designs: Range<usize>) -> Resul
     }
 }
 
-/// Turns an error of the system into one that says what could not be written.
-pub(crate) fn failed(path: &Path) -> impl Fn(std::io::Error) -> TaskError + use<> {
-    let path = path.to_path_buf();
-    move |reason| StoreError::Write { path: path.clone(), reason }.into()
-}
-
 /// Writes the file of the plan, which makes a folder that of a sweep.
 fn begin(plan: &Plan, path: &Path) -> Result<(), TaskError> {
     let kept = Kept {
@@ -239,61 +297,43 @@ fn begin(plan: &Plan, path: &Path) -> Result<(), TaskError> {
     Ok(write_durably(path, |file| writeln!(file, "{text}"))?)
 }
 
-/// Opens the folder of a plan by its SHA-256, or begins it where nothing is yet: `begin` writes the file that makes a folder that of a
-/// plan.
-///
-/// # Errors
-/// [`TaskError::Input`] if the folder is of another plan; [`TaskError::Work`] if other things are in it or it cannot be written to.
-pub(crate) fn opened(
-    path: &Path,
-    sha256: &str,
-    begin: &dyn Fn(&Path) -> Result<(), TaskError>,
-) -> Result<(), TaskError> {
-    fs::create_dir_all(path).map_err(failed(path))?;
-    let kept = path.join(KEPT);
-    loop {
-        match fs::read_to_string(&kept) {
-            Ok(text) => return is_of(path, sha256, &text),
-            Err(error) if error.kind() != ErrorKind::NotFound => return Err(failed(&kept)(error)),
-            // Another process may have begun it meanwhile.
-            Err(_) => match guest(path)? {
-                Some(_) if kept.exists() => {}
-                Some(found) => return Err(occupied(path, found)),
-                None => begin(&kept)?,
-            },
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_designs_are_computed_once() {
+        let scratch = std::env::temp_dir().join(format!("unripple-equal-{}", std::process::id()));
+        fs::create_dir(&scratch).unwrap();
+        let file = scratch.join("plan.toml");
+        let text = "format = 1\ntask = \"modes\"\nsurface = \"hudin-2012\"\nshard = 3\n\
+                    [[axis]]\nkey = \"sheet.tension_n_per_m\"\nvalues = [150, 200, 150.0, 200, 250, 150, 250, 150]\n";
+        fs::write(&file, text).unwrap();
+        let plan = Plan::open(&file).unwrap();
+        let folder = Folder::open(&plan, &scratch.join("out")).unwrap();
+        let mut computed = Vec::new();
+        let mut compute = |index: usize| {
+            computed.push(index);
+            Ok(Row::failed(plan.design(index), format!("that of {index}")))
+        };
+        // The last shard first, as one of several machines may do it.
+        let last = folder.computed(2, false, &mut compute).unwrap();
+        assert!(last.is_empty() && folder.waits(2) && !folder.waits(1));
+        for shard in [0, 1] {
+            let rows = folder.computed(shard, false, &mut compute).unwrap();
+            folder.put_or_keep(shard, &rows).unwrap();
         }
+        assert_eq!(computed, [0, 1, 4]);
+        folder.share().unwrap();
+        assert!(folder.missing().unwrap().is_empty());
+        let mut told = Vec::new();
+        let mut take = |row: Row| {
+            assert_eq!(row.values, plan.design(row.index).values);
+            told.extend(row.error);
+            Ok(())
+        };
+        folder.each(&mut take).unwrap();
+        assert_eq!(told, [0, 1, 0, 1, 4, 0, 4, 0].map(|first| format!("that of {first}")));
+        fs::remove_dir_all(&scratch).unwrap();
     }
-}
-
-/// Refuses a folder whose rows are those of another plan.
-fn is_of(path: &Path, sha256: &str, text: &str) -> Result<(), TaskError> {
-    let kept: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
-    match kept["sha256"].as_str() {
-        Some(found) if found == sha256 => Ok(()),
-        found => Err(TaskError::Input(format!(
-            "{}: expected rows of this plan on this surface (SHA-256 {sha256}), found those of another ({}); name another folder",
-            path.display(),
-            found.unwrap_or("unknown")
-        ))),
-    }
-}
-
-/// Something in a folder that is not what a plan begins with; `None` if nothing is there.
-fn guest(path: &Path) -> Result<Option<String>, TaskError> {
-    let hidden = format!(".{KEPT}.");
-    for entry in fs::read_dir(path).map_err(failed(path))? {
-        let name = entry.map_err(failed(path))?.file_name().to_string_lossy().into_owned();
-        // Programs that call shards may make the folders of what they expect.
-        let expected =
-            name == PARTS && fs::read_dir(path.join(PARTS)).is_ok_and(|mut parts| parts.next().is_none());
-        if !expected && !name.starts_with(&hidden) {
-            return Ok(Some(name));
-        }
-    }
-    Ok(None)
-}
-
-fn occupied(path: &Path, found: String) -> TaskError {
-    let expected = "no such folder yet, an empty one, or that of the same plan";
-    StoreError::Occupied { path: path.into(), expected, found: format!("a folder with `{found}`") }.into()
 }

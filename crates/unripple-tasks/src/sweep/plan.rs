@@ -1,6 +1,7 @@
 //! A plan of a sweep, opened: every design by its index alone.
 
 use super::design::{Design, canonical};
+use super::equal::Equal;
 use super::files::{self, Files};
 use super::flat::is_of_the_clock;
 use super::surface::{Ground, origin};
@@ -54,6 +55,7 @@ pub struct Plan {
     /// SHA-256 of the files that the fields of all designs name.
     asked: Map<String, Value>,
     hash: String,
+    equal: Equal,
 }
 
 impl Plan {
@@ -106,7 +108,8 @@ impl Plan {
             kept["files"] = named.into();
         }
         let hash = of_bytes(canonical(&kept).as_bytes());
-        let plan = Self { file, ground, surface_sha256, files, asked, hash };
+        let equal = Equal::of(&file.designs);
+        let plan = Self { file, ground, surface_sha256, files, asked, hash, equal };
         for varied in plan.file.designs.varied() {
             plan.check(varied).map_err(|found| match found {
                 TaskError::Input(text) => TaskError::Input(format!("{shown}: {varied}: {text}")),
@@ -193,6 +196,11 @@ impl Plan {
         let mut files = self.asked.clone();
         files.extend(self.files.named(own.iter().map(|(varied, value)| (varied, value))));
         Design::of(&self.file, &self.surface_sha256, files, index, own)
+    }
+
+    /// The index of the first design that is equal to the one with an index: its own if there is no earlier one.
+    pub(super) fn first(&self, index: usize) -> usize {
+        self.equal.first(index)
     }
 
     /// The request of a design: what all designs have, its own values, and its surface.

@@ -173,8 +173,7 @@ pub(crate) fn rows(
     let missing = folder.missing()?;
     for index in missing.iter().flat_map(|shard| plan.shard(*shard)) {
         let design = plan.design(index);
-        let row = known.get(&design.hash).map(|row| Row { index, ..row.clone() });
-        if let Some(row) = row.filter(|row| row.is_of(&design)) {
+        if let Some(row) = known.get(&design.hash).and_then(|row| row.again(design)) {
             folder.put_row(&row)?;
         }
     }

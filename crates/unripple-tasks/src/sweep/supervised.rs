@@ -9,15 +9,19 @@ use std::thread::available_parallelism;
 /// have done theirs would wait more often for the others.
 const MOST_SHARDS: usize = 2000;
 
-/// Computes all shards that are missing: together, and by itself what a process died of or had no memory for.
+/// Computes all shards that are missing: together, and by itself what a process died of or had no memory for. Designs that are equal to
+/// those of earlier shards are left out, and get their rows in between.
 ///
 /// # Errors
 /// [`TaskError::Cancelled`]; [`TaskError::Work`] of a process that cannot be started, or that ends with an error of its own.
 pub(super) fn run(workers: &Workers, folder: &Folder, progress: &mut dyn Progress) -> Result<(), TaskError> {
     loop {
-        let missing = folder.missing()?;
+        folder.share()?;
+        let (waiting, missing): (Vec<usize>, Vec<usize>) =
+            folder.missing()?.into_iter().partition(|shard| folder.waits(*shard));
         if missing.is_empty() {
-            return Ok(());
+            // The rows that any wait for are there and cannot be taken, as those of another version.
+            return waiting.iter().try_for_each(|shard| settle(workers, folder, *shard, progress));
         }
         let shares = shares(&missing, workers.jobs.min(most()));
         let endings = together(workers, folder, &shares, progress)?;
@@ -65,7 +69,7 @@ fn complete(
     how: Option<String>,
     progress: &mut dyn Progress,
 ) -> Result<(), TaskError> {
-    for shard in share.iter().copied().filter(|shard| !folder.has(*shard)) {
+    for shard in share.iter().copied().filter(|shard| !folder.has(*shard) && !folder.waits(*shard)) {
         if folder.is_kept(shard) {
             let told =
                 format!("shard {shard}: designs that memory was lacking for are tried again by themselves");
@@ -124,7 +128,7 @@ fn design(
     index: usize,
     progress: &mut dyn Progress,
 ) -> Result<Row, TaskError> {
-    if let Some(row) = folder.settled(index) {
+    if let Some(row) = folder.settled(index).or_else(|| folder.equal_elsewhere(index)) {
         return Ok(row);
     }
     let how = alone(workers, Piece::Design(index), progress)?;
