@@ -11,6 +11,8 @@ mod given;
 mod reach;
 #[path = "every/optimise.rs"]
 mod searches;
+#[path = "every/optimise_more.rs"]
+mod searches_more;
 #[path = "every/sweep.rs"]
 mod sweeps;
 #[path = "every/sweep_ended.rs"]

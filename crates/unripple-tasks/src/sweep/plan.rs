@@ -63,7 +63,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`TaskError::Faults`] with all faults of the file; [`TaskError::Input`] of a surface that is not there, of keys that surface files do not
-    /// have, of fields with values of the wrong kind, and of figures that depend on the clock.
+    /// have, of any key where the surface is a library, of fields with values of the wrong kind, and of figures that depend on the clock.
     pub fn open(path: &Path) -> Result<Self, TaskError> {
         Self::of(path, load_plan(path, &tasks())?)
     }
@@ -143,10 +143,15 @@ impl Plan {
 
     /// Checks that surface files have a key; values that they cannot have are left to the designs.
     fn check_key(&self, key: &str, index: usize) -> Result<(), TaskError> {
+        if let Ground::Library(_) = self.ground {
+            let expected =
+                "expected options of the task alone to vary, since the surface is a library of responses";
+            return Err(TaskError::Input(format!("{expected}, found a key of a surface file")));
+        }
         let faults = match self.surface(index) {
             Ok(surface) => match surface.load() {
                 Err(TaskError::Faults(faults)) => faults,
-                // What else a surface may be refused for, as a library whose keys cannot be set, is the task's to say.
+                // What else a surface may be refused for is the task's to say.
                 Ok(_) | Err(_) => return Ok(()),
             },
             Err(TaskError::Faults(faults)) => faults,

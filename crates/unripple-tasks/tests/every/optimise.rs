@@ -10,23 +10,23 @@ use unripple_tasks::sweep::Plan;
 use unripple_tasks::{Progress, Record, Report as _, Silent, TaskError, commands};
 
 /// A folder of a test's own, gone afterwards.
-struct Scratch(PathBuf);
+pub(crate) struct Scratch(pub(crate) PathBuf);
 
 impl Scratch {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let folder = super::folder(name);
         fs::create_dir(&folder).unwrap();
         Self(folder)
     }
 
     /// The request for a plan of this text, whose designs go to a folder.
-    fn ask(&self, plan: &str, output: &str) -> Ask {
+    pub(crate) fn ask(&self, plan: &str, output: &str) -> Ask {
         let file = self.0.join("plan.toml");
         fs::write(&file, plan).unwrap();
         Ask { plan: file, output: Some(self.0.join(output)), no_figures: true, ..Ask::default() }
     }
 
-    fn read(&self, file: &str) -> String {
+    pub(crate) fn read(&self, file: &str) -> String {
         fs::read_to_string(self.0.join(file)).unwrap()
     }
 }
@@ -61,7 +61,7 @@ values = ["BoPET", "no such material"]
 "#;
 
 /// The question of a generation.
-fn question(folder: &Path, generation: usize) -> Value {
+pub(crate) fn question(folder: &Path, generation: usize) -> Value {
     let text = fs::read_to_string(folder.join(format!("asked/{generation}.json"))).unwrap();
     serde_json::from_str(&text).unwrap()
 }

@@ -182,21 +182,32 @@ impl Progress for Spoiled<'_> {
     }
 }
 
-#[test]
-fn a_library_is_read_once() {
-    let scratch = Scratch::new("sweep-library");
+/// Computes a library of the paper's film in a narrow band, at a few points, into a folder.
+pub(crate) fn library(output: &Path) {
     let set = [("drive.band_hz", "[0, 600]"), ("drive.sample_rate_hz", "4800")];
     let set: BTreeMap<String, String> = set.map(|(key, value)| (key.to_owned(), value.to_owned())).into();
-    let library = respond::Ask {
+    let ask = respond::Ask {
         surface: SurfaceAsk::Set { name: "hudin-2012".into(), set },
         pitch_m: 0.03,
         length_s: None,
-        output: scratch.0.join("library"),
+        output: output.into(),
     };
-    respond::run(&library, &mut Silent).unwrap();
+    respond::run(&ask, &mut Silent).unwrap();
+}
+
+#[test]
+fn a_library_is_read_once() {
+    let scratch = Scratch::new("sweep-library");
+    library(&scratch.0.join("library"));
     let plan = "format = 1\ntask = \"focus\"\nsurface = \"library\"\nshard = 1\n\
                 figures = [\"/window_s\", \"/judged_on\"]\nask = { points = [{ at_m = [0.06, 0.09] }] }\n\
                 [[axis]]\nask = \"window_s\"\nvalues = [0.01, 0.009]\n";
+    // Only options vary: no file has keys that could be set.
+    let key = plan.replace("ask = \"window_s\"", "key = \"sheet.thickness_mm\"");
+    let refused = run(&scratch.ask(&key, "keys"), &mut Silent).unwrap_err();
+    assert!(refused.is_bad_input(), "{refused}");
+    let expected = "surface:sheet.thickness_mm: expected options of the task alone to vary";
+    assert!(refused.to_string().contains(expected) && !scratch.0.join("keys").exists(), "{refused}");
     let ask = scratch.ask(plan, "out");
     let mut spoiled = Spoiled { folder: &scratch.0, done: Cell::new(false) };
     let report = run(&ask, &mut spoiled).unwrap();
