@@ -21,6 +21,7 @@ _BESIDE = {
     "calibrate": {"snr_db": "unknowns"},
     "drift": {"snr_db": "unknowns"},
     "doctor": {"snr_db": "unknowns"},
+    "optimise": {"stop_percent": "stop_after"},
     "play": {"snr_db": "unknowns"},
 }
 

@@ -297,7 +297,13 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         Option("drift_percent", "drift", percent),
     ),
     "sweep": (*_same(path, "plan"), *_same(count, "shard"), *_same(flag, "count"), *_FIGURES),
-    "optimise": (*_same(path, "plan"), *_same(flag, "no_ask"), *_FIGURES),
+    "optimise": (
+        *_same(path, "plan"),
+        *_same(flag, "no_ask"),
+        *_same(count, "stop_after"),
+        Option("stop_percent", "stop_share", percent),
+        *_FIGURES,
+    ),
     "reproduce": (*_same(path, "output"), *_same(count, "placements")),
     "rerun": _same(path, "report", "output"),
 }

@@ -31,3 +31,6 @@ class OptimiseOptions(PlanOptions, total=False):
 
     jobs: int | None
     no_ask: bool | None
+    stop_after: int | None
+    stop_percent: float | None
+    stop_share: float | None

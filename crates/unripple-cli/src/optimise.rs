@@ -8,7 +8,7 @@ use crate::progress::Terminal;
 use crate::sweep::{command, crew};
 use std::path::Path;
 use unripple_tasks::observed;
-use unripple_tasks::optimise::{self, Crew, by_python};
+use unripple_tasks::optimise::{self, ByPython, Crew};
 use unripple_tasks::sweep::Piece;
 
 /// Searches by a plan: the Python package asks for designs, and processes of this program compute them.
@@ -19,7 +19,8 @@ pub fn run(options: &OptimiseOptions, common: &Common) -> Result<(), CliError> {
     let start = |plan: &Path, place: &Path, piece: Piece| command(program.as_deref(), plan, place, piece);
     let crew = Crew { jobs: options.jobs, command: &start };
     let crew = program.is_some().then_some(&crew);
+    let asker = ByPython::default();
     let done =
-        observed(&mut Terminal::default(), |progress| optimise::run_with(&ask, &by_python, crew, progress));
+        observed(&mut Terminal::default(), |progress| optimise::run_with(&ask, &asker, crew, progress));
     output::recorded(&done?, record.as_ref())
 }

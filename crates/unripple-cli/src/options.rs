@@ -34,6 +34,7 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("targets_within_m", "--screen"),
     ("share", "--share-percent"),
     ("tension", "--tension-percent"),
+    ("stop_share", "--stop-percent"),
     ("plan", "PLAN"),
     ("waveforms and path", "--waveform and --path"),
 ];

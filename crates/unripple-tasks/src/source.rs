@@ -128,6 +128,10 @@ pub(crate) fn keeping<T>(work: impl FnOnce() -> T) -> T {
         }
     }
 
+    if KEPT.with_borrow(Option::is_some) {
+        // Whoever keeps it already forgets it.
+        return work();
+    }
     KEPT.set(Some(Vec::new()));
     let _forget = Forget;
     work()

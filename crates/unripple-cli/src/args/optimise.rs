@@ -19,6 +19,19 @@ pub struct OptimiseOptions {
     /// Compute the designs that have been asked for, and ask for no others: that takes the Python package, this does not.
     #[arg(long)]
     pub no_ask: bool,
+    /// Ask for no more designs once this many generations have brought no improvement: of the best design, or with several objectives of the
+    /// hypervolume of the front. By default all generations of the plan are computed.
+    #[arg(long, value_name = "GENERATIONS")]
+    pub stop_after: Option<usize>,
+    /// The least improvement that counts for --stop-after, in per cent of what was found before.
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value_t = 0.1,
+        allow_negative_numbers = true,
+        requires = "stop_after"
+    )]
+    pub stop_percent: f64,
     #[command(flatten)]
     pub figures: FigureOptions,
     /// Folder for designs, table, report and picture. What is there of the same plan is neither asked for nor computed again.
@@ -34,6 +47,8 @@ impl OptimiseOptions {
             plan: self.plan.clone(),
             output: Some(self.output.clone()),
             no_ask: self.no_ask,
+            stop_after: self.stop_after,
+            stop_share: self.stop_percent / 100.0,
             no_figures: self.figures.no_figures,
             columns: self.figures.columns,
         })

@@ -1,9 +1,9 @@
 //! The course of a search: all designs so far, and the best of them.
 
-use super::Search;
 use super::front::Front;
 use super::good::Step;
 use super::told::{Told, turned};
+use super::{End, Search};
 use crate::sweep::Row;
 use std::collections::HashMap;
 
@@ -20,21 +20,19 @@ pub(super) struct Course {
     pub optimisers: Vec<String>,
     /// The generation that has to be asked for next; `None` if the search is over.
     pub to_ask: Option<usize>,
+    /// Why the search is over; `None` if it is not.
+    pub ended: Option<End>,
+    /// Rows by the hash of their design: what is asked for again is not computed again.
+    pub known: HashMap<String, Row>,
 }
 
 impl Course {
     /// Takes the rows of another generation into account.
-    pub fn take(
-        &mut self,
-        search: &Search,
-        generation: usize,
-        rows: Vec<Row>,
-        known: &mut HashMap<String, Row>,
-    ) {
+    pub fn take(&mut self, search: &Search, generation: usize, rows: Vec<Row>) {
         let (designs, mut failed) = (rows.len(), 0);
         for row in rows {
             let at = self.told.len();
-            known.entry(row.hash.clone()).or_insert_with(|| row.clone());
+            self.known.entry(row.hash.clone()).or_insert_with(|| row.clone());
             self.told.push(Told::of(search.file(), generation, at, row));
             failed += usize::from(self.told[at].losses.is_none());
             self.front.take(&self.told, at);

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use unripple_store::{SearchFile, remove_left, write_durably};
 
 /// Folder of what has been asked for: a plan of a sweep for each generation.
@@ -21,8 +22,8 @@ const GENERATIONS: &str = "generations";
 const BY: &str = "# asked for by ";
 
 /// The folder that a search fills.
-pub(super) struct Folder<'s> {
-    search: &'s Search,
+pub(super) struct Folder {
+    search: Arc<Search>,
     path: PathBuf,
 }
 
@@ -34,14 +35,14 @@ struct Kept<'s> {
     plan: &'s SearchFile,
 }
 
-impl<'s> Folder<'s> {
+impl Folder {
     /// Opens the folder of a plan, or begins it: where nothing is yet, or the same plan.
     ///
     /// # Errors
     /// [`TaskError::Input`] if the folder is of another plan; [`TaskError::Work`] if other things are in it or it cannot be written to.
-    pub fn open(search: &'s Search, path: &Path) -> Result<Self, TaskError> {
+    pub fn open(search: &Arc<Search>, path: &Path) -> Result<Self, TaskError> {
         opened(path, search.hash(), &|kept| begin(search, kept))?;
-        let folder = Self { search, path: path.into() };
+        let folder = Self { search: search.clone(), path: path.into() };
         for made in [ASKED, GENERATIONS] {
             folder.make(made)?;
         }
@@ -72,7 +73,7 @@ impl<'s> Folder<'s> {
         self.file(ASKED).join(format!("{generation}.toml"))
     }
 
-    fn question(&self, generation: usize) -> PathBuf {
+    fn question_file(&self, generation: usize) -> PathBuf {
         self.file(ASKED).join(format!("{generation}.json"))
     }
 
@@ -87,29 +88,36 @@ impl<'s> Folder<'s> {
         Some(text.lines().next()?.strip_prefix(BY)?.trim().to_owned())
     }
 
-    /// Writes what an optimiser has to know for the designs of a generation: the unknowns, and all that has been told.
+    /// What an optimiser has to know for the designs of a generation, as a line of JSON: the unknowns, and what came of the designs of the
+    /// generations before but for the first `since`.
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] if the folder that the plan names files from is not there.
+    pub fn question(&self, generation: usize, told: &[Told], since: usize) -> Result<String, TaskError> {
+        let (file, names) = (self.search.file(), self.search.names());
+        let new = &told[told.partition_point(|told| told.generation < since)..];
+        let generations = new.chunk_by(|one, other| one.generation == other.generation);
+        let designs = |own: &[Told]| -> Vec<Value> { own.iter().map(|told| told.json(&names)).collect() };
+        let question = json!({
+            "format": 1, "generation": generation, "seed": file.seed, "population": file.population, "objectives": file.objectives.len(),
+            "head": self.search.head(&self.file(ASKED))?, "unknowns": self.search.unknowns(), "since": since,
+            "told": generations.map(designs).collect::<Vec<_>>(),
+        });
+        serde_json::to_string(&question).map_err(TaskError::work)
+    }
+
+    /// Writes the question of a generation.
     ///
     /// # Errors
     /// [`TaskError::Work`] if it cannot be written.
-    pub fn put_question(&self, generation: usize, told: &[Told]) -> Result<(), TaskError> {
-        let (file, names) = (self.search.file(), self.search.names());
-        let of = |generation: usize| -> Vec<Value> {
-            let own = told.iter().filter(|told| told.generation == generation);
-            own.map(|told| told.json(&names)).collect()
-        };
-        let question = json!({
-            "format": 1, "generation": generation, "seed": file.seed, "population": file.population, "objectives": file.objectives.len(),
-            "head": self.search.head(&self.file(ASKED))?, "unknowns": self.search.unknowns(),
-            "told": (0..generation).map(of).collect::<Vec<_>>(),
-        });
-        let text = serde_json::to_string(&question).map_err(TaskError::work)?;
-        Ok(write_durably(self.question(generation), |file| writeln!(file, "{text}"))?)
+    pub fn put_question(&self, generation: usize, text: &str) -> Result<(), TaskError> {
+        Ok(write_durably(self.question_file(generation), |file| writeln!(file, "{text}"))?)
     }
 
     /// Removes the question of a generation whose designs have been asked for.
     pub fn remove_question(&self, generation: usize) {
         // It is in nobody's way, and another process may have removed it.
-        let _ = fs::remove_file(self.question(generation));
+        let _ = fs::remove_file(self.question_file(generation));
     }
 
     /// The rows of a generation that has been asked for, those that are missing computed first. Rows that are `known` by their hash are
@@ -124,6 +132,22 @@ impl<'s> Folder<'s> {
         workers: Option<&Workers<'_>>,
         progress: &mut dyn Progress,
     ) -> Result<Vec<Row>, TaskError> {
+        let plan = self.opened(generation)?;
+        let what = format!("generation {generation}");
+        sweep::rows(&plan, &self.place(generation), known, workers, &what, progress)
+    }
+
+    /// The shards of a generation that has been asked for which have to be computed: all that are missing, but for those in which all rows
+    /// are `known` by their hash or are those of equal designs.
+    ///
+    /// # Errors
+    /// Those of [`rows`](Self::rows), but for those of computing.
+    pub fn shards(&self, generation: usize, known: &HashMap<String, Row>) -> Result<Vec<usize>, TaskError> {
+        sweep::shards(&self.opened(generation)?, &self.place(generation), known)
+    }
+
+    /// The plan of a generation that has been asked for, which must be one of this search.
+    fn opened(&self, generation: usize) -> Result<Plan, TaskError> {
         let file = self.plan(generation);
         let plan = match Plan::open(&file) {
             Ok(plan) if self.search.owns(&plan) => plan,
@@ -137,8 +161,7 @@ impl<'s> Folder<'s> {
                 file.display()
             )));
         }
-        let what = format!("generation {generation}");
-        sweep::rows(&plan, &self.place(generation), known, workers, &what, progress)
+        Ok(plan)
     }
 
     /// The folder of the sweep of a generation.

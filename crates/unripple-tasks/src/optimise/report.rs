@@ -1,7 +1,7 @@
 //! Report of the task `optimise`.
 
 use super::course::Course;
-use super::{Good, Search, Step};
+use super::{End, EndedBy, Good, Search, Step};
 use crate::TaskError;
 use crate::sweep::{FailedDesign, Named, listed, short};
 use serde::Serialize;
@@ -46,6 +46,9 @@ pub struct Report {
     /// The generation whose designs have to be asked for next, counted from 0; absent once the search is over.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_ask: Option<usize>,
+    /// Why the search is over; absent while it is not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ended: Option<End>,
     /// Number of designs that have a row.
     pub designs: usize,
     /// How many of them failed.
@@ -98,6 +101,7 @@ impl Report {
             generations: file.generations,
             done: course.steps.len(),
             to_ask: course.to_ask,
+            ended: course.ended.clone(),
             designs: told.len(),
             failed: failed.count(),
             failures: failures.collect(),
@@ -184,6 +188,11 @@ impl crate::Report for Report {
         text += &self.found();
         if let Some(generation) = self.to_ask {
             let _ = writeln!(text, "  generation {generation} has to be asked for");
+        }
+        if let Some(End { by, why }) = &self.ended
+            && *by != EndedBy::Generations
+        {
+            let _ = writeln!(text, "  over before its last generation: {why}");
         }
         for note in &self.notes {
             let _ = writeln!(text, "note, {}: {}", note.topic, note.text);

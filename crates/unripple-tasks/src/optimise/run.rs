@@ -1,31 +1,8 @@
 //! Searches: asks for the designs of one generation after the other, computes them, and says what was found.
 
-use super::asker::{Asker, by_python};
-use super::course::Course;
-use super::folder::Folder;
-use super::{Ask, Report, Search, figure, table};
-use crate::figures::Columns;
-use crate::sweep::{Piece, Row, TABLE, Workers};
-use crate::{Progress, Record, TaskError, figures, go_on, source};
-use std::collections::HashMap;
-use std::path::Path;
-use std::process::Command;
-use unripple::act::Note;
-use unripple_store::write_file;
-
-/// Name of the report in the folder.
-const REPORT: &str = "optimise.json";
-
-/// Name of the surface file of the best design.
-const BEST: &str = "best.toml";
-
-/// How a search starts processes.
-pub struct Crew<'c> {
-    /// Number of processes at a time, at least 1.
-    pub jobs: usize,
-    /// The command of a process that computes a piece of a sweep, from the plan and the folder of that sweep; see [`Workers`].
-    pub command: &'c dyn Fn(&Path, &Path, Piece) -> Command,
-}
+use super::asker::{Answer, Asker, ByPython};
+use super::{Ask, Crew, Report, Stepped};
+use crate::{Progress, TaskError, go_on, source};
 
 /// Searches by a plan, in this process, and asks the Python package for designs. What is in the folder already is neither asked for nor
 /// computed again, so that a search goes on after any kill; a design that fails is a row with its error, and counts as worse than all
@@ -69,10 +46,10 @@ pub struct Crew<'c> {
 /// ```
 ///
 /// # Errors
-/// Those of [`Search::open`] and of [`by_python`]; [`TaskError::Ask`] of options that make no sense; [`TaskError::Input`] of a folder with
+/// Those of [`Search::open`](super::Search::open) and of [`ByPython`]; [`TaskError::Ask`] of options that make no sense; [`TaskError::Input`] of a folder with
 /// designs of another plan; [`TaskError::Work`] of one with other things in it, and of what cannot be written; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
-    run_with(ask, &by_python, None, progress)
+    run_with(ask, &ByPython::default(), None, progress)
 }
 
 /// As [`run`], with another optimiser, and with processes that compute the designs.
@@ -81,112 +58,36 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 /// Those of [`run`] and of `asker`; [`TaskError::Work`] of a process that cannot be started, or that ends with an error of its own.
 pub fn run_with(
     ask: &Ask,
-    asker: &Asker<'_>,
+    asker: &dyn Asker,
     crew: Option<&Crew<'_>>,
     progress: &mut dyn Progress,
 ) -> Result<Report, TaskError> {
     go_on(progress)?;
-    let columns = Columns::of(ask.columns)?;
-    let output =
-        ask.output.as_deref().ok_or_else(|| TaskError::ask("output", "a folder for the designs", "none"))?;
-    let search = Search::open(&ask.plan)?;
-    // Before the work, as of every task: files may change meanwhile.
-    let record = Record::of(ask)?;
-    let folder = Folder::open(&search, output)?;
-    let mut course = Course::default();
+    let mut stepped = Stepped::open(ask)?;
     let asker = (!ask.no_ask).then_some(asker);
-    let gone = source::keeping(|| go(&search, &folder, asker, crew, &mut course, progress));
-    let file = folder.file(TABLE);
-    // Also of a search that could not go on, unless more is there already, as before one of its first generations came to be refused.
-    if gone.is_ok() || table::rows(&file) <= course.told.len() {
-        table::write(&file, search.file(), &search.names(), &course.told)?;
+    let gone = source::keeping(|| go(&mut stepped, asker, crew, progress));
+    if gone.is_err() {
+        stepped.keep()?;
     }
     gone?;
-    let mut report = Report::of(&search, &course)?;
-    report.files.push(TABLE.into());
-    if let Some(text) = &report.best_surface {
-        write_file(folder.file(BEST), text.as_bytes())?;
-        report.files.push(BEST.into());
-    }
-    if !ask.no_figures && !course.told.is_empty() {
-        progress.stage("figures");
-        match drawn(&search, &folder, &course, columns) {
-            Ok(files) => report.files.extend(files),
-            // The table is what was asked for.
-            Err(error) => report.notes.push(Note { topic: "figures", text: error.to_string() }),
-        }
-    }
-    write_file(folder.file(REPORT), record.json(&report)?.as_bytes())?;
-    progress.tell(&format!("wrote {}", folder.file(TABLE).display()));
-    Ok(report)
+    stepped.finish(progress)
 }
 
 /// Goes through the generations: asks for those that have not been asked for, and computes what is missing.
 fn go(
-    search: &Search,
-    folder: &Folder,
-    asker: Option<&Asker<'_>>,
+    stepped: &mut Stepped,
+    asker: Option<&dyn Asker>,
     crew: Option<&Crew<'_>>,
-    course: &mut Course,
     progress: &mut dyn Progress,
 ) -> Result<(), TaskError> {
-    let mut known = HashMap::new();
-    for generation in 0..search.file().generations {
-        go_on(progress)?;
-        if !folder.is_asked(generation) {
-            course.to_ask = Some(generation);
-            folder.put_question(generation, &course.told)?;
-            let Some(asker) = asker else { return Ok(()) };
-            progress.stage(&format!("asking for generation {generation}"));
-            asker(folder.path(), generation)?;
-            if !folder.is_asked(generation) {
-                return Err(TaskError::Work(format!(
-                    "generation {generation} was asked for, but nothing came"
-                )));
-            }
-            course.to_ask = None;
+    while let Some(generation) = stepped.go(crew, progress)? {
+        let Some(asker) = asker else { return stepped.question().put() };
+        progress.stage(&format!("asking for generation {generation}"));
+        // Bound first, since the question borrows what is ended by the answer.
+        let answer = asker.ask(&stepped.question())?;
+        if let Answer::Over(why) = answer {
+            stepped.over(why);
         }
-        folder.remove_question(generation);
-        let rows = computed(folder, generation, &known, crew, progress)?;
-        if let Some(name) = folder.asker(generation)
-            && !course.optimisers.contains(&name)
-        {
-            course.optimisers.push(name);
-        }
-        course.take(search, generation, rows, &mut known);
     }
     Ok(())
-}
-
-/// The rows of a generation that has been asked for, by processes or in this one.
-fn computed(
-    folder: &Folder,
-    generation: usize,
-    known: &HashMap<String, Row>,
-    crew: Option<&Crew<'_>>,
-    progress: &mut dyn Progress,
-) -> Result<Vec<Row>, TaskError> {
-    let Some(crew) = crew else { return folder.rows(generation, known, None, progress) };
-    let (plan, place) = folder.sweep(generation);
-    let command = |piece: Piece| (crew.command)(&plan, &place, piece);
-    let workers = Workers { jobs: crew.jobs, command: &command };
-    folder.rows(generation, known, Some(&workers), progress)
-}
-
-/// Draws the figures, and returns the names of their files.
-fn drawn(
-    search: &Search,
-    folder: &Folder,
-    course: &Course,
-    columns: Columns,
-) -> Result<Vec<String>, TaskError> {
-    let objectives = &search.file().objectives;
-    let Some(figure) = figure::all(objectives, &course.told, &course.front) else { return Ok(Vec::new()) };
-    let figures = columns.fit(vec![figure]);
-    let mut names = Vec::new();
-    for (name, bytes) in figures::files(&figures)? {
-        write_file(folder.file(&name), &bytes)?;
-        names.push(name);
-    }
-    Ok(names)
 }

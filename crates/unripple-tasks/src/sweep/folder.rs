@@ -4,7 +4,7 @@ use super::opened::{PARTS, failed, opened};
 use super::{Plan, Row};
 use crate::{Progress, TaskError, go_on};
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -189,6 +189,21 @@ impl<'p> Folder<'p> {
             }
         }
         Ok(())
+    }
+
+    /// Takes rows that are `known` by the hash of their design, as far as this version computed them. A shard that has no others is done.
+    ///
+    /// # Errors
+    /// [`TaskError::Work`] if the folder cannot be read, or rows cannot be written.
+    pub fn take(&self, known: &HashMap<String, Row>) -> Result<(), TaskError> {
+        let row = |index: usize| {
+            let design = self.plan.design(index);
+            known.get(&design.hash).and_then(|row| row.again(design))
+        };
+        self.missing()?.into_iter().try_for_each(|shard| {
+            let rows: Vec<Row> = self.plan.shard(shard).filter_map(row).collect();
+            self.put_or_keep(shard, &rows)
+        })
     }
 
     /// Stores the rows of a shard if they are all there and settled; otherwise those that are there, one by one.

@@ -35,7 +35,7 @@ pub use plan::Plan;
 pub use report::Report;
 pub(crate) use report::{short, written as listed};
 pub use row::Row;
-pub(crate) use run::rows;
+pub(crate) use run::{rows, shards};
 pub use run::{compute, run, run_with};
 pub(crate) use surface::origin;
 pub(crate) use table::{TABLE, field, text};

@@ -170,14 +170,8 @@ pub(crate) fn rows(
     progress: &mut dyn Progress,
 ) -> Result<Vec<Row>, TaskError> {
     let folder = Folder::open(plan, path)?;
-    let missing = folder.missing()?;
-    for index in missing.iter().flat_map(|shard| plan.shard(*shard)) {
-        let design = plan.design(index);
-        if let Some(row) = known.get(&design.hash).and_then(|row| row.again(design)) {
-            folder.put_row(&row)?;
-        }
-    }
-    if !missing.is_empty() {
+    folder.take(known)?;
+    if !folder.missing()?.is_empty() {
         all(&folder, workers, what, progress)?;
     }
     let mut rows = Vec::new();
@@ -186,6 +180,21 @@ pub(crate) fn rows(
         Ok(())
     })?;
     Ok(rows)
+}
+
+/// The shards of a plan that have to be computed into a folder, which takes the rows that are `known` by their hash: all that are missing,
+/// but for those that only have designs which are equal to those of earlier shards.
+///
+/// # Errors
+/// Those of [`run`], but for those of the plan and of computing.
+pub(crate) fn shards(
+    plan: &Plan,
+    path: &Path,
+    known: &HashMap<String, Row>,
+) -> Result<Vec<usize>, TaskError> {
+    let folder = Folder::open(plan, path)?;
+    folder.take(known)?;
+    Ok(folder.missing()?.into_iter().filter(|shard| !folder.waits(*shard)).collect())
 }
 
 /// Writes the table of all rows, and figures unless they are not wanted.
