@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import math
 import os
@@ -67,8 +68,10 @@ values = [0.1, 0.125, 0.15]
 _NUMBER = {"name": "surface:a", "from": 100.0, "to": 400.0, "log": False, "whole": False}
 
 
-def _question(unknowns: list[dict[str, Any]], told: list[Any], objectives: int = 1) -> dict[str, Any]:
-    return {
+def _question(
+    unknowns: list[dict[str, Any]], told: list[Any], objectives: int = 1, since: int = 0
+) -> dict[str, Any]:
+    question = {
         "format": 1,
         "generation": len(told),
         "seed": 1,
@@ -76,20 +79,30 @@ def _question(unknowns: list[dict[str, Any]], told: list[Any], objectives: int =
         "objectives": objectives,
         "head": "format = 1\n",
         "unknowns": unknowns,
-        "told": told,
+        "since": since,
+        "told": told[since:],
     }
+    # As it goes through a file.
+    read: dict[str, Any] = json.loads(json.dumps(question))
+    return read
 
 
 def _search(
     unknowns: list[dict[str, Any]], figures: Callable[[list[Any]], list[float] | None], generations: int, objectives: int = 1
 ) -> list[list[dict[str, Any]]]:
     told: list[list[dict[str, Any]]] = []
+    asking = _asking.Asking()
     for _ in range(generations):
-        # As it goes through a file.
-        question = json.loads(json.dumps(_question(unknowns, told, objectives)))
-        designs = [[json.loads(written) for _, written in design] for design in _asking.designs(question)[1]]
-        told.append([{"values": values, "losses": figures(values), "violation": 0.0} for values in designs])
+        _, found, ended = asking.designs(_question(unknowns, told, objectives, asking.since))
+        if ended is not None:
+            break
+        told.append(_told(found, figures))
     return told
+
+
+def _told(found: _asking.Designs, figures: Callable[[list[Any]], list[float] | None]) -> list[dict[str, Any]]:
+    designs = [[json.loads(written) for _, written in design] for design in found]
+    return [{"values": values, "losses": figures(values), "violation": 0.0} for values in designs]
 
 
 def _best(told: list[list[dict[str, Any]]]) -> list[Any]:
@@ -135,7 +148,52 @@ def test_rows_of_another_optimiser_are_refused() -> None:
     told = _search([_NUMBER], lambda values: [values[0]], 2)
     told[0][0]["values"] = [100.0]
     with pytest.raises(ur.WorkError, match="generation 0 as CMA-ES of cmaes"):
-        _asking.designs(_question([_NUMBER], told))
+        _asking.Asking().designs(_question([_NUMBER], told))
+
+
+@pytest.mark.parametrize("objectives", [1, 2, 4])
+@pytest.mark.parametrize("stepped", [False, True])
+def test_an_optimiser_that_is_begun_anew_asks_exactly_as_one_that_lives(
+    objectives: int, stepped: bool
+) -> None:
+    steps = {"name": "ask:count", "from": 1.0, "to": 9.0, "log": False, "whole": True}
+    unknowns = [_NUMBER, steps] if stepped else [_NUMBER]
+    living, told = _asking.Asking(), list[Any]()
+    for _ in range(6):
+        asked = living.designs(_question(unknowns, told, objectives, living.since))
+        # Asked once more, it asks for the same.
+        assert living.designs(_question(unknowns, told, objectives, living.since)) == asked
+        assert _asking.Asking().designs(_question(unknowns, told, objectives)) == asked
+        told.append(_told(asked[1], lambda values: [abs(values[0] - 150 - 50 * at) for at in range(objectives)]))
+
+
+def test_cma_es_ends_a_search_by_its_own_criteria() -> None:
+    asking, told = _asking.Asking(), list[Any]()
+    for _ in range(200):
+        name, found, ended = asking.designs(_question([_NUMBER], told, 1, asking.since))
+        if ended is not None:
+            break
+        told.append(_told(found, lambda values: [(values[0] - 310) ** 2]))
+    assert ended is not None and ended.startswith(name) and len(told) > 20
+    assert _best(told) == pytest.approx([310], rel=1e-6)
+    # One that is begun anew says so again.
+    assert _asking.Asking().designs(_question([_NUMBER], told))[2] == ended
+
+
+def test_questions_are_answered_line_by_line(folder: Path) -> None:
+    Path("asked").mkdir()
+    told = _search([_NUMBER], lambda values: [values[0]], 2)
+    lines = [
+        json.dumps(_question([_NUMBER], told[:count], 1, since)).encode() + b"\n"
+        for count, since in ((0, 0), (1, 0), (2, 1), (2, 1))
+    ]
+    answers = io.BytesIO()
+    _asking.answered(folder, lines, answers)
+    *asked, refused = [json.loads(answer) for answer in answers.getvalue().splitlines()]
+    assert asked == [{"generation": generation} for generation in range(3)]
+    assert "expected what came of generations from 2, found it from 1" in refused["error"]
+    first = Path("asked/0.toml").read_text(encoding="utf-8")
+    assert first.startswith("# asked for by CMA-ES of cmaes") and first.count("[[design]]") == len(told[0])
 
 
 def _table(folder: Path | str) -> bytes:
@@ -195,6 +253,33 @@ def test_a_search_that_was_killed_goes_on_to_the_same_table(program: str) -> Non
     shutil.rmtree("killed/generations/0/parts")
     report = ur.optimise(_plan(4), "killed", no_figures=True)
     assert report.done == 4 and _table("killed") == _table("whole")
+
+
+def test_a_design_that_is_asked_for_again_is_not_computed_again_by_processes() -> None:
+    plan = _plan(2)
+    assert ur.optimise(plan, "out", no_ask=True).to_ask == 0
+    head = json.loads(Path("out/asked/0.json").read_text(encoding="utf-8"))["head"]
+    design = '[[design]]\n"surface:sheet.tension_n_per_m" = {}\n"surface:sheet.thickness_mm" = 0.125\n'
+    for generation, tensions in enumerate([(200, 250), (250, 220, 250)]):
+        text = head + "".join(design.format(tension) for tension in tensions)
+        Path(f"out/asked/{generation}.toml").write_text(text, encoding="utf-8")
+        report = ur.optimise(plan, "out", no_ask=True, no_figures=True, jobs=2)
+        if generation == 0:
+            # What stands in for a computation that nobody repeats.
+            part = Path("out/generations/0/parts/1.jsonl")
+            part.write_text(part.read_text(encoding="utf-8").replace('"/frequencies_hz/0":', '"/frequencies_hz/0":1'))
+    assert (report.designs, report.failed, report.ended.by) == (5, 0, "generations")
+    hz = [float(row["/frequencies_hz/0"]) for row in _rows("out")]
+    assert hz[1] > 1000 and hz[2] == hz[4] == hz[1] and hz[3] < 1000
+
+
+def test_a_search_stops_where_it_does_not_improve() -> None:
+    report = ur.optimise(_plan(20), "out", no_figures=True, stop_after=1, stop_percent=99)
+    assert (report.ended.by, report.get("to_ask")) == ("no-improvement", None) and report.done < 20
+    with pytest.raises(ur.OptionError, match="expected stop_after beside stop_percent"):
+        ur.optimise(_plan(20), "out", stop_percent=1)
+    with pytest.raises(ur.UnrippleError, match="stop_after: expected at least 1"):
+        ur.optimise(_plan(20), "out", stop_after=0)
 
 
 def test_the_front_has_all_designs_that_nothing_is_better_than_and_nothing_else() -> None:

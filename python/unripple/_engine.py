@@ -10,7 +10,7 @@ import re
 import tempfile
 import time
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -31,8 +31,11 @@ _RETRIES = 5
 _PATIENCE = 30.0
 
 
-def sweep(plan: Any, output: Any, options: Mapping[str, Any]) -> Report:
-    """Compute the rows of a sweep by the workers of ``options["client"]``, and the table here; see :func:`unripple.sweep`."""
+def sweep(plan: Any, output: Any, options: Mapping[str, Any], shards: Sequence[int] | None = None) -> Report:
+    """Compute the rows of a sweep by the workers of ``options["client"]``, and the table here; see :func:`unripple.sweep`.
+
+    With ``shards`` the workers compute these alone; whatever else is missing is computed here.
+    """
     given = {name: value for name, value in options.items() if value is not None}
     distributed, client = _labels.needed("distributed", "dask"), given.pop("client", None)
     if not isinstance(client, distributed.Client) or client.asynchronous:
@@ -49,7 +52,7 @@ def sweep(plan: Any, output: Any, options: Mapping[str, Any]) -> Report:
         sent = _Sent(client, counted, folder, shared, chosen_threads(given.get("threads")) or 1)
         with Telling(given.get("progress")) as telling:
             telling.stage("designs")
-            sent.compute(telling)
+            sent.compute(telling, shards)
     return _call.report("sweep", given, plan=plan, output=output)
 
 
@@ -66,9 +69,10 @@ class _Sent:
         self.files = None if shared else _files(plan, counted)
         self.name = hashlib.sha256(repr((self.told, folder, shared)).encode()).hexdigest()[:16]
 
-    def compute(self, telling: Telling) -> None:
-        """Have all missing shards computed; those whose workers were killed once more, after the others."""
-        killed = self._missing()
+    def compute(self, telling: Telling, shards: Sequence[int] | None) -> None:
+        """Have all missing shards, or those of some, computed; those whose workers were killed once more, after the others."""
+        wanted = range(self.shards) if shards is None else set(shards)
+        killed = [shard for shard in self._missing() if shard in wanted]
         for suffix in ("", "-again"):
             killed = self._round(killed, suffix, telling) if killed else []
         if killed:
@@ -93,13 +97,13 @@ class _Sent:
         from distributed import CancelledError, KilledWorker, as_completed
         from distributed.comm.core import CommClosedError
 
-        waiting, killed, done = iter(shards), list[int](), self.shards - len(shards)
+        waiting, killed, done, before = iter(shards), list[int](), 0, self.shards - len(shards)
         running: dict[str, tuple[int, Any]] = {}
         submit = partial(self.client.submit, pure=False, retries=_RETRIES)
         ended: Any = as_completed(loop=self.client.loop)  # type: ignore[no-untyped-call]
         files: Any = None
         try:
-            while done + len(killed) < self.shards:
+            while done + len(killed) < len(shards):
                 for shard in itertools.islice(waiting, _AT_ONCE - len(running)):
                     if self.client.status != "running":
                         raise CancelledError(f"the client is {self.client.status}")
@@ -121,11 +125,11 @@ class _Sent:
                     self._take(shard, future.result() if files else None)
                     done += 1
                 del running[future.key]
-                telling.done(done / self.shards)
+                telling.done((before + done) / self.shards)
         except (CancelledError, CommClosedError) as error:
             raise WorkError(
-                f"sweep: {done} of {self.shards} shards are done; the scheduler of Dask was lost, or tasks were cancelled ({error}); with the "
-                "client of a scheduler that runs, the same call goes on where it was"
+                f"sweep: {before + done} of {self.shards} shards are done; the scheduler of Dask was lost, or tasks were cancelled ({error}); "
+                "with the client of a scheduler that runs, the same call goes on where it was"
             ) from None
         finally:
             # A client that is closed has nothing to cancel.

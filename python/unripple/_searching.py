@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import contextlib
-import os
+import json
 import sys
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from unripple import _call, _values
-from unripple._errors import OptionError, UnrippleWarning, WorkError
-from unripple._progress import chosen_threads
+from unripple import _call, _unripple, _values
+from unripple._errors import OptionError, UnrippleError, UnrippleWarning
+from unripple._progress import Telling
 from unripple._report import Report
 
 if TYPE_CHECKING:
-    import subprocess
     from typing import Unpack
 
     from unripple import _plan_types, _types
@@ -24,17 +23,15 @@ if TYPE_CHECKING:
 #: Options that only say who computes.
 _WHO = ("client", "shared", "jobs")
 
-#: Most shards that a process is told at once, so that its command line is no longer than any system allows.
-_AT_ONCE = 2000
 
-
-def optimise(plan: _types.Path, output: _types.Path, **options: Unpack[_plan_types.OptimiseOptions]) -> Report:
+def optimise(
+    plan: _types.Path, output: _types.Path, **options: Unpack[_plan_types.OptimiseOptions]
+) -> Report:
     """Search the designs whose figures are most or least, or the best trade-offs between several figures.
 
     The designs of one generation after the other are asked for by an optimiser, and computed: in this process, by `jobs` processes, or with
     `client` by the workers of Dask. What is in the folder already is neither asked for nor computed again, so that a search that was stopped
-    goes on where it was, from here or from the command line. A design of an earlier generation that is asked for once more is computed once
-    more by `jobs` and `client`, and by this process not.
+    goes on where it was, from here or from the command line. A design that is asked for once more is not computed once more.
 
     Parameters
     ----------
@@ -46,6 +43,9 @@ def optimise(plan: _types.Path, output: _types.Path, **options: Unpack[_plan_typ
         Number of processes that compute at a time; by default this process computes alone.
     no_ask
         Compute the designs that have been asked for, and ask for no others.
+    stop_after, stop_percent
+        Number of generations without an improvement after which no more are asked for, and the least improvement that counts, 0.1 % by default:
+        of the best design, or with several objectives of the hypervolume of the front.
     no_figures, columns
         As for :meth:`Surface.focus`.
     client, shared
@@ -98,82 +98,67 @@ def _searched(plan: Any, output: Any, options: Mapping[str, Any]) -> Report:
         raise OptionError(f"jobs: expected a number from 1, found {jobs}")
     if who and jobs > 1:
         raise OptionError("optimise: expected one of client and jobs, found both")
-    folder = None if output is None else Path(_values.path("output", output))
-    while True:
-        if folder is not None and (who or jobs > 1):
-            _compute(folder, jobs, who, given)
-        report = _call.report("optimise", {**given, "no_ask": True, "no_figures": True}, plan=plan, output=output)
-        if report.get("to_ask") is None or given.get("no_ask") or folder is None:
-            break
+    call = _call.Call("optimise", {"plan": plan, "output": output, **given})
+    if who:
+        who.update({name: given[name] for name in ("threads", "progress") if name in given})
+    return Report._of(
+        call.perform(lambda telling, threads: _Searching(call, jobs, who, telling, threads).done())
+    )
+
+
+class _Searching:
+    """A search in this process: who computes, who asks, and how it is told."""
+
+    def __init__(
+        self, call: _call.Call, jobs: int, who: Mapping[str, Any], telling: Telling, threads: int | None
+    ) -> None:
+        self.search = _unripple.Search(call.json)
+        self.call, self.jobs, self.who = call, jobs, who
+        self.telling, self.threads = telling, threads
+
+    def done(self) -> _unripple.Done:
+        """Go through the generations, and return the report."""
+        try:
+            self._go()
+        except (UnrippleError, ImportError):
+            # What is known is in the table, unless more of it was there.
+            with contextlib.suppress(UnrippleError):
+                self.search.keep()
+            raise
+        return self.search.finish(self.telling)
+
+    def _go(self) -> None:
         from unripple import _asking
 
-        _asking.ask(folder, report.to_ask)
-    # Once more, with figures, as it was asked.
-    return _call.report("optimise", given, plan=plan, output=output)
+        asking, folder = _asking.Asking(), Path(self.call.ask["output"])
+        while True:
+            if self.who:
+                self._by_dask()
+            generation = self.search.go(self.jobs, sys.executable, self.telling, self.threads)
+            if generation is None:
+                return
+            if self.call.ask.get("no_ask"):
+                self.search.put_question()
+                return
+            self.telling.stage(f"asking for generation {generation}")
+            try:
+                ended = asking.ask(folder, json.loads(self.search.question(asking.since)))
+            except (UnrippleError, ImportError):
+                # It is there for whoever asks in another way.
+                self.search.put_question()
+                raise
+            if ended is not None:
+                self.search.over(ended)
 
-
-def _compute(folder: Path, jobs: int, who: Mapping[str, Any], given: Mapping[str, Any]) -> None:
-    """Compute the generation that was asked for last, unless its rows are there."""
-    asked = [int(path.stem) for path in folder.glob("asked/*.toml") if path.stem.isdecimal()]
-    if not asked:
-        return
-    plan, place = folder / f"asked/{max(asked)}.toml", folder / f"generations/{max(asked)}"
-    missing = [shard for shard in range(_shards(plan)) if not (place / f"parts/{shard}.jsonl").exists()]
-    if who and missing:
+    def _by_dask(self) -> None:
+        """Have the workers of Dask compute what is missing of a generation that has been asked for."""
+        missing = self.search.missing()
+        if missing is None:
+            return
         from unripple import _engine
 
-        more = {name: given[name] for name in ("threads", "progress") if name in given}
+        plan, place, shards = missing
         with warnings.catch_warnings():
             # The search goes on where all designs of a generation fail.
             warnings.simplefilter("ignore", UnrippleWarning)
-            _engine.sweep(plan, place, {**who, **more, "no_figures": True})
-        return
-    for first in range(0, len(missing), jobs * _AT_ONCE):
-        shards = missing[first : first + jobs * _AT_ONCE]
-        _by_processes(plan, place, shards, min(jobs, len(shards)), chosen_threads(given.get("threads")))
-
-
-def _shards(plan: Path) -> int:
-    """Return the number of shards of the plan of a generation; 0 if it cannot be read, which the task then says."""
-    import tomllib
-
-    try:
-        read = tomllib.loads(plan.read_text(encoding="utf-8"))
-        return -(-len(read["design"]) // int(read.get("shard", 20)))
-    except (OSError, ValueError, KeyError, ZeroDivisionError):
-        return 0
-
-
-def _by_processes(plan: Path, place: Path, shards: list[int], jobs: int, threads: int | None) -> None:
-    """Compute shards by so many processes, which end with this one. Those that memory is lacking for are left to this process."""
-    import subprocess
-
-    share = threads or max(1, (os.cpu_count() or 1) // max(jobs, 1))
-    environment = {"RAYON_NUM_THREADS": str(share), **os.environ}
-    if threads is not None:
-        environment["RAYON_NUM_THREADS"] = str(threads)
-    running: list[subprocess.Popen[bytes]] = []
-    try:
-        for first in range(jobs):
-            piece = f"shards:{','.join(map(str, shards[first::jobs]))}"
-            command = [sys.executable, "-m", "unripple", "sweep", "--quiet", "--piece", piece]
-            command += ["-o", str(place), "--", str(plan)]
-            running.append(
-                subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, env=environment)
-            )
-        statuses = [process.wait() for process in running]
-    finally:
-        for process in running:
-            # Each ends by itself when its input does.
-            if process.stdin is not None:
-                process.stdin.close()
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(2)
-            process.kill()
-            process.wait()
-    ended = [status for status in statuses if status != 0]
-    if ended:
-        raise WorkError(
-            f"optimise: a process of {plan} ended with status {ended[0]}; the command `unripple optimise` finds the designs that end their "
-            "process, and makes rows of them"
-        )
+            _engine.sweep(plan, place, {**self.who, "no_figures": True}, shards)

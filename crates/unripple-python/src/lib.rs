@@ -14,6 +14,7 @@ mod leaving;
 mod player;
 mod progress;
 mod responses;
+mod search;
 mod surface;
 mod threads;
 mod virtual_surface;
@@ -35,6 +36,8 @@ mod _unripple {
     use crate::player::Player;
     #[pymodule_export]
     use crate::responses::Responses;
+    #[pymodule_export]
+    use crate::search::Search;
     #[pymodule_export]
     use crate::surface::Surface;
     #[pymodule_export]

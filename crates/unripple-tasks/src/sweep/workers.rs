@@ -101,7 +101,8 @@ impl Workers<'_> {
     /// Starts the process of a piece, one of so many, which share the processors.
     fn start(&self, piece: Piece, processes: usize) -> Result<Child, TaskError> {
         let mut command = (self.command)(piece);
-        if env::var_os(THREADS).is_none() {
+        let is_told = command.get_envs().any(|(name, _)| name == THREADS);
+        if !is_told && env::var_os(THREADS).is_none() {
             let threads = available_parallelism().map_or(1, usize::from).div_ceil(processes);
             command.env(THREADS, threads.to_string());
         }
