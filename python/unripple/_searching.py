@@ -46,9 +46,7 @@ def optimise(
     stop_after, stop_percent
         Number of generations without an improvement after which no more are asked for, and the least improvement that counts, 0.1 % by default:
         of the best design, or with several objectives of the hypervolume of the front.
-    no_figures, columns
-        As for :meth:`Surface.focus`.
-    client, shared
+    client, shared, no_figures, columns
         As for :func:`sweep`.
 
     Returns
