@@ -44,8 +44,7 @@ def optimise(
     no_ask
         Compute the designs that have been asked for, and ask for no others.
     stop_after, stop_percent
-        Number of generations without an improvement after which no more are asked for, and the least improvement that counts, 0.1 % by default:
-        of the best design, or with several objectives of the hypervolume of the front.
+        Generations without an improvement (of the best design or of the front) that ends it, and the least that counts, by default 0.1.
     client, shared, no_figures, columns
         As for :func:`sweep`.
 
