@@ -43,6 +43,7 @@
 
 mod apart;
 mod approximate;
+mod area;
 mod basis;
 mod chosen;
 mod error;
@@ -62,6 +63,7 @@ mod search;
 mod spread;
 
 pub use approximate::Approximate;
+pub use area::encloses;
 pub use chosen::Chosen;
 pub use error::PlacementError;
 pub use forms::{Aim, Forms};

@@ -1,12 +1,14 @@
 //! Rules for where actuators may be.
 
 use crate::PlacementError;
-use unripple_core::{Outline, Point, require};
+use crate::area::{encloses, reaches_into};
+use unripple_core::{Outline, Patch, Point, require};
 
 /// Largest number of cells of a grid of places. With twice this value, a search would take a GiB for every ten targets.
 const MOST_CELLS: f64 = 4e6;
 
-/// Where actuators may be: within a range of distances from the rim, inside some areas, outside others.
+/// Where actuators may be: within a range of distances from the rim, inside some areas, outside others. Distances from the rim and the areas
+/// inside which they must be are those of their centres; from other areas and beyond the sheet the whole of their footprint is kept.
 ///
 /// ```
 /// use unripple_core::{Outline, Point, Shape};
@@ -25,26 +27,40 @@ pub struct Rules {
     pub from_rim: [f64; 2],
     /// Areas in one of which a place must be, as polygons (m); empty for the whole surface.
     pub within: Vec<Vec<Point>>,
-    /// Areas in which no place may be, as polygons (m).
+    /// Areas into which no footprint may reach, as polygons (m).
     pub keep_out: Vec<Vec<Point>>,
+    /// What an actuator covers of the sheet, about its place; a disc of radius 0 for a point.
+    pub footprint: Patch,
 }
 
 impl Default for Rules {
-    /// Anywhere on the sheet.
+    /// Anywhere on the sheet, for points.
     fn default() -> Self {
-        Self { from_rim: [0.0, f64::INFINITY], within: Vec::new(), keep_out: Vec::new() }
+        let footprint = Patch::Round { radius: 0.0 };
+        Self { from_rim: [0.0, f64::INFINITY], within: Vec::new(), keep_out: Vec::new(), footprint }
     }
 }
 
 impl Rules {
     /// Whether an actuator may be at a point (m) of a sheet.
     pub fn allow(&self, outline: &Outline, at: Point) -> bool {
-        let inside = |areas: &[Vec<Point>]| areas.iter().any(|area| encloses(area, at));
         let [least, most] = self.from_rim;
-        (self.within.is_empty() || inside(&self.within))
-            && !inside(&self.keep_out)
+        (self.within.is_empty() || self.within.iter().any(|area| encloses(area, at)))
+            && self.keeps_out(at)
             && outline.contains(at)
             && (least..=most).contains(&outline.to_rim(at))
+            && self.lies_on(outline, at)
+    }
+
+    /// Whether an actuator at a point (m) reaches into none of the areas in which there may be none.
+    pub fn keeps_out(&self, at: Point) -> bool {
+        !self.keep_out.iter().any(|area| reaches_into(self.footprint, at, area))
+    }
+
+    /// Whether the footprint of an actuator at a point (m) is wholly on a sheet.
+    fn lies_on(&self, outline: &Outline, at: Point) -> bool {
+        // A point on the sheet is, and no distances need be computed.
+        self.footprint == Patch::Round { radius: 0.0 } || self.footprint.lies_on(outline, at)
     }
 
     /// The allowed points of a grid of square cells of side `pitch` (m) over a sheet, row by row from the bottom. The grid is centred on
@@ -66,33 +82,10 @@ impl Rules {
     }
 }
 
-/// Whether a polygon encloses a point, by the number of its sides that a ray to the right crosses.
-fn encloses(polygon: &[Point], p: Point) -> bool {
-    let next = polygon.iter().cycle().skip(1);
-    let crossed = polygon
-        .iter()
-        .zip(next)
-        .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x));
-    crossed.count() % 2 == 1
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use unripple_core::{Hole, Shape};
-
-    #[test]
-    fn areas_that_are_not_convex_enclose_what_they_do() {
-        let corner = |(x, y)| Point::from_mm(x, y);
-        let bracket =
-            [(0.0, 0.0), (30.0, 0.0), (30.0, 10.0), (10.0, 10.0), (10.0, 30.0), (0.0, 30.0)].map(corner);
-        assert!(
-            encloses(&bracket, Point::from_mm(20.0, 5.0)) && encloses(&bracket, Point::from_mm(5.0, 20.0))
-        );
-        assert!(
-            !encloses(&bracket, Point::from_mm(20.0, 20.0)) && !encloses(&bracket, Point::from_mm(-1.0, 5.0))
-        );
-    }
 
     #[test]
     fn rims_of_holes_count_and_areas_are_kept_out() {
@@ -113,6 +106,24 @@ mod tests {
             rules.allow(&sheet, Point::from_mm(150.0, 6.0))
                 && !rules.allow(&sheet, Point::from_mm(150.0, 50.0))
         );
+    }
+
+    #[test]
+    fn footprints_stay_on_the_sheet_and_out_of_areas() {
+        let sheet = Outline::new(Shape::Rectangle { width: 0.2, height: 0.1 });
+        let corners = [(90.0, 0.0), (110.0, 0.0), (110.0, 100.0), (90.0, 100.0)];
+        let keep_out = vec![corners.map(|(x, y)| Point::from_mm(x, y)).to_vec()];
+        let points = Rules { keep_out, ..Rules::default() };
+        let discs = Rules { footprint: Patch::Round { radius: 6e-3 }, ..points.clone() };
+        // 5 mm from the rim, from the area, and from neither.
+        for (x, y, fits) in [(5.0, 50.0, false), (85.0, 50.0, false), (50.0, 50.0, true)] {
+            let at = Point::from_mm(x, y);
+            assert!(points.allow(&sheet, at), "{at}");
+            assert_eq!(discs.allow(&sheet, at), fits, "{at}");
+        }
+        let pitch = 5e-3;
+        let (all, fewer) = (points.grid(&sheet, pitch).unwrap(), discs.grid(&sheet, pitch).unwrap());
+        assert!(fewer.len() < all.len() && fewer.iter().all(|at| all.contains(at)));
     }
 
     #[test]

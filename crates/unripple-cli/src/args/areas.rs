@@ -16,7 +16,7 @@ pub struct AreaOptions {
     /// A polygon in which places must lie, as its corners in mm. Repeatable: then in any of them.
     #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::PLACES)]
     pub within: Vec<String>,
-    /// A polygon in which no place may lie, as its corners in mm. Repeatable.
+    /// A polygon in which no place may lie, and into which no actuator may reach, as its corners in mm. Repeatable.
     #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::PLACES)]
     pub keep_out: Vec<String>,
     /// A place to choose from, in mm, instead of those of a grid. Repeatable.

@@ -5,7 +5,7 @@ use crate::common;
 use common::{Scratch, json, number, refused, run};
 use serde_json::Value;
 use unripple::core::{Point, Surface};
-use unripple_store::load_surface;
+use unripple_store::{load_surface, to_toml};
 
 /// The paper's film in a fifth of its band: a dozen modes, and one ring of places at its rim.
 const FILM: [&str; 4] = ["place", "hudin-2012", "--set", "drive.band_hz=[0,600]"];
@@ -137,6 +137,30 @@ fn places_keep_to_the_areas_and_distances_that_are_set() {
     let listed = [(10.0, 10.0), (20.0, 140.0), (135.0, 70.0)].map(|(x, y)| Point::from_mm(x, y));
     for (_, at) in layout(&json(&[&FILM[..], &places].concat()), "after") {
         assert!(listed.iter().any(|place| place.distance(at) < 1e-9), "{at}");
+    }
+}
+
+#[test]
+fn actuators_with_an_extent_lie_wholly_on_the_sheet_and_outside_areas() {
+    let scratch = Scratch::new("place-extent");
+    let mut film = load_surface("hudin-2012").unwrap();
+    film.emission.band = [0.0, 600.0];
+    film.actuators.iter_mut().for_each(|actuator| actuator.contact_radius = 8e-3);
+    let file = scratch.file("discs.toml", to_toml(&film));
+    let half = ["place", &file, "--count", "3", "--keep-out", "0,0,75,0,75,150,0,150", "--restarts", "1"];
+    let targets = ["--at", "62,90", "--at", "90,40", "--window-ms", "10"];
+    // Three reach into the area or beyond the rim with 8 mm, three do not.
+    let places = ["78,20", "82,75", "100,4", "90,140", "120,60", "110,110"];
+    let places: Vec<&str> = places.iter().flat_map(|place| ["--place", *place]).collect();
+    let report = json(&[&half[..], &targets, &places].concat());
+    assert_eq!(report["places"], 3);
+    for (_, at) in layout(&report, "after") {
+        assert!(at.x >= 83e-3 && to_rim(at) >= 8e-3, "{at}");
+    }
+    // Nor do they between the places of a grid.
+    let report = json(&[&half[..], &targets, &["--grid-mm", "12"]].concat());
+    for (_, at) in layout(&report, "after") {
+        assert!(within(at.x, 83e-3, SIDE) && within(to_rim(at), 8e-3, SIDE), "{at}");
     }
 }
 

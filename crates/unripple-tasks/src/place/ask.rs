@@ -30,7 +30,7 @@ pub struct Ask {
     pub rim_m: Option<[f64; 2]>,
     /// Polygons in one of which places must lie, each as its corners in m; by default the whole surface.
     pub within_m: Vec<Vec<Place>>,
-    /// Polygons in which no place may lie, each as its corners in m.
+    /// Polygons into which no actuator may reach with its contact disc or patch, each as its corners in m.
     pub keep_out_m: Vec<Vec<Place>>,
     /// Places to choose from, in m, instead of those of a grid.
     pub places_m: Vec<Place>,

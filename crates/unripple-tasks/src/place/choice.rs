@@ -2,14 +2,14 @@
 
 use super::Ask;
 use super::ask::TESTED;
-use super::setting::{named_targets, numbers, of_targets, reach, target_rules};
+use super::setting::{footprint, named_targets, numbers, of_targets, reach, target_rules};
 use crate::TaskError;
 use crate::areas::{from_rim, polygons};
 use crate::numbers::above_zero;
 use crate::source::Stored;
 use crate::window::carries;
 use unripple::act::{Note, chosen_window, lasting};
-use unripple::core::{Point, Responses, SampledResponses, Surface, window_samples};
+use unripple::core::{Actuator, Point, Responses, SampledResponses, Surface, window_samples};
 use unripple_placement::{Aim, Rules, spread};
 
 /// Distance in m within which a point counts as being at an actuator: there the field is more than a sum of free waves.
@@ -64,7 +64,7 @@ impl Choice {
     pub fn of(ask: &Ask, surface: Surface, stored: Stored) -> Result<Self, TaskError> {
         numbers(ask)?;
         let Stored { responses, told, mut notes, .. } = stored;
-        let (ports, kept, places) = actuators(ask, &responses)?;
+        let (ports, kept, places) = actuators(ask, &responses, &surface.actuators)?;
         let (trained, tested) = match ask.points_m.is_empty() {
             true => spread_targets(ask, &responses)?,
             false => {
@@ -95,8 +95,13 @@ impl Choice {
     }
 }
 
-/// Indices of the actuators that move the surface, the kept ones first, then those to choose from; the number of both.
-fn actuators(ask: &Ask, responses: &SampledResponses) -> Result<(Vec<usize>, usize, usize), TaskError> {
+/// Indices of the actuators that move the surface, the kept ones first, then those to choose from; the number of both. `mounted` are those of
+/// the surface, whose footprints count; of others the places alone do.
+fn actuators(
+    ask: &Ask,
+    responses: &SampledResponses,
+    mounted: &[Actuator],
+) -> Result<(Vec<usize>, usize, usize), TaskError> {
     let outline = &responses.conditions.outline;
     let name = |port: usize| responses.ports[port].name.as_str();
     // Responses of dead actuators are zero.
@@ -113,10 +118,19 @@ fn actuators(ask: &Ask, responses: &SampledResponses) -> Result<(Vec<usize>, usi
         from_rim: from_rim(ask.rim_m)?,
         within: polygons("within_m", &ask.within_m)?,
         keep_out: polygons("keep_out_m", &ask.keep_out_m)?,
+        ..Rules::default()
+    };
+    // What is mounted fits on the sheet.
+    let keeps_out = |port: usize| {
+        let kept = |actuator: &Actuator| {
+            Rules { footprint: footprint(actuator), ..rules.clone() }.keeps_out(actuator.at)
+        };
+        mounted.get(port).is_none_or(kept)
     };
     // An actuator may be at the very rim.
     let anywhere = ask.rim_m.is_none() && ask.within_m.is_empty() && ask.keep_out_m.is_empty();
-    let allowed = |port: &usize| anywhere || rules.allow(outline, responses.ports[*port].at);
+    let allowed =
+        |port: &usize| anywhere || rules.allow(outline, responses.ports[*port].at) && keeps_out(*port);
     let stays = |port: &usize| ask.keep_all || ask.keep.iter().any(|kept| kept == name(*port));
     let (mut all, others): (Vec<usize>, Vec<usize>) = alive.into_iter().partition(stays);
     let (free, beyond): (Vec<usize>, Vec<usize>) = others.into_iter().partition(allowed);
@@ -238,12 +252,12 @@ mod tests {
     #[test]
     fn dead_actuators_are_no_choice() {
         let ask = Ask { count: 2, keep: vec!["a3".into()], ..Ask::default() };
-        assert_eq!(actuators(&ask, &responses(4)).unwrap(), (vec![3, 1, 2, 4], 1, 3));
+        assert_eq!(actuators(&ask, &responses(4), &[]).unwrap(), (vec![3, 1, 2, 4], 1, 3));
         let dead = Ask { keep: vec!["a0".into()], ..ask.clone() };
-        let error = actuators(&dead, &responses(4)).unwrap_err();
+        let error = actuators(&dead, &responses(4), &[]).unwrap_err();
         assert_eq!(error.to_string(), "keep: expected one of a1, a2, a3, a4, found `a0`");
         let many = Ask { count: 4, ..ask };
-        let error = actuators(&many, &responses(4)).unwrap_err();
+        let error = actuators(&many, &responses(4), &[]).unwrap_err();
         assert!(error.to_string().starts_with("count: expected at most 3, the actuators"), "{error}");
     }
 
@@ -251,9 +265,9 @@ mod tests {
     fn actuators_that_the_rules_leave_out_come_last() {
         let left = vec![vec![[0.0, 0.0], [0.055, 0.0], [0.055, 0.1], [0.0, 0.1]]];
         let ask = Ask { count: 1, keep_out_m: left, ..Ask::default() };
-        assert_eq!(actuators(&ask, &responses(4)).unwrap(), (vec![2, 3, 4, 1], 0, 3));
+        assert_eq!(actuators(&ask, &responses(4), &[]).unwrap(), (vec![2, 3, 4, 1], 0, 3));
         let all = Ask { count: 1, keep_all: true, ..Ask::default() };
-        assert!(actuators(&all, &responses(4)).is_err());
+        assert!(actuators(&all, &responses(4), &[]).is_err());
     }
 
     #[test]

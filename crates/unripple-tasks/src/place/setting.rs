@@ -65,6 +65,7 @@ impl Setting {
             from_rim: from_rim(ask.rim_m)?,
             within: polygons("within_m", &ask.within_m)?,
             keep_out: polygons("keep_out_m", &ask.keep_out_m)?,
+            footprint: footprint(&kind),
         };
         let (trained, tested) = targets(ask, &surface, lambda_min)?;
         let held_out = ask.points_m.is_empty();
@@ -158,14 +159,19 @@ impl Setting {
     }
 }
 
+/// What an actuator covers of the sheet, about its place.
+pub(super) fn footprint(actuator: &Actuator) -> Patch {
+    match actuator.kind {
+        ActuatorKind::Piezo { patch, .. } => patch,
+        _ => Patch::Round { radius: actuator.contact_radius },
+    }
+}
+
 /// Largest distance from the place of an actuator to where it touches the sheet, in m.
 pub(super) fn reach(actuator: &Actuator) -> f64 {
-    match actuator.kind {
-        ActuatorKind::Piezo { patch: Patch::Round { radius }, .. } => radius,
-        ActuatorKind::Piezo { patch: Patch::Rectangular { sides: [width, height], .. }, .. } => {
-            0.5 * width.hypot(height)
-        }
-        _ => actuator.contact_radius,
+    match footprint(actuator) {
+        Patch::Round { radius } => radius,
+        Patch::Rectangular { sides: [width, height], .. } => 0.5 * width.hypot(height),
     }
 }
 
@@ -319,7 +325,7 @@ pub(super) fn target_rules(ask: &Ask, lambda_min: f64) -> Rules {
     let within = ask.targets_within_m.iter().map(|area| area.iter().map(point).collect()).collect();
     // Near a rim that is held, nothing can be in focus.
     let from_rim = if ask.targets_within_m.is_empty() { lambda_min } else { 0.0 };
-    Rules { from_rim: [from_rim, f64::INFINITY], within, keep_out: Vec::new() }
+    Rules { from_rim: [from_rim, f64::INFINITY], within, ..Rules::default() }
 }
 
 /// The targets that layouts are optimised for, and those on which they are evaluated.

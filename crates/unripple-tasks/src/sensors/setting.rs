@@ -51,6 +51,7 @@ impl Setting {
             from_rim: from_rim(ask.rim_m)?,
             within: polygons("within_m", &ask.within_m)?,
             keep_out: polygons("keep_out_m", &ask.keep_out_m)?,
+            ..Rules::default()
         };
         numbers(ask, &surface)?;
         let lambda_min = conditions(&surface).lambda_min;
