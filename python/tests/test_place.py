@@ -90,6 +90,22 @@ def test_weights(value: Any, points_m: list[list[float]], weights: list[float] |
     assert _asked(at=value) == _asked(points_mm=value) == wanted
 
 
+@pytest.mark.parametrize(
+    "value",
+    [
+        (_CORNERS, 3),
+        [(_CORNERS, 3)],
+        [(np.array(_CORNERS), np.float64(3))],
+        "10,20,30.3,20,30,40:3",
+        ["10,20,30.3,20,30,40:3"],
+        [{"area_m": _CORNERS_M, "weight": 3}],
+    ],
+    ids=lambda value: type(value).__name__,
+)
+def test_areas_with_weights(value: Any) -> None:
+    assert _asked(important=value) == {"important": [{"area_m": _CORNERS_M, "weight": 3}]}
+
+
 def test_options_in_si_units_are_the_same() -> None:
     wanted = {"rim_m": [0.006, 0.012], "places_m": [[0.01, 0.02]], "pitch_m": 0.002, "share": 0.3, "tension": 0.01}
     assert _asked(rim_mm="6,12", place=(10, 20), grid_mm=2, share_percent=30, tension_percent=1) == wanted
@@ -106,6 +122,8 @@ def test_options_in_si_units_are_the_same() -> None:
         ({"keep_out": [(1, 2), (3, 4), (5, 6, 7)]}, "keep_out: expected X,Y in mm, found 3 numbers"),
         ({"within": 3}, "within: expected a list, found 3"),
         ({"within": "1,2,3,4,5,x"}, "within: expected at least three corners X,Y in mm, found 'x'"),
+        ({"important": "1,2,3,4,5,6"}, "important: expected a polygon in mm and its weight, found '1,2,3,4,5,6'"),
+        ({"important": [(_CORNERS[:2], 1)]}, "important: expected at least three corners X,Y in mm, found 2 corners"),
         ({"at": (1, 2, 3, 4)}, "at: expected X,Y[,WEIGHT] in mm, found 4 numbers"),
         ({"rim_mm": (6, 9, 12)}, "rim_mm: expected LEAST,MOST in mm, found 3 numbers"),
         ({"targets": [(62, 90)]}, "targets: expected a whole number, found [(62, 90)]"),

@@ -163,6 +163,8 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         *_polygons("within", "within"),
         *_polygons("keep_out", "keep_out"),
         *_polygons("screen", "targets_within"),
+        *_same(path, "importance"),
+        *_same(_values.important, "important"),
         *_places("place", "places"),
         Option("grid_mm", "pitch_m", milli),
         Option("apart_mm", "apart_m", milli),

@@ -98,6 +98,9 @@ class Reporting:
         at, screen, targets
             What the layout is optimised for: targets ``(x, y)`` or ``(x, y, weight)`` in mm, or polygons in which so many targets
             are spread, 20 by default; without either anywhere at least one shortest wavelength from the rim.
+        importance, important
+            How much targets that are spread count by where they are: a CSV file with the columns ``x_mm``, ``y_mm`` and ``weight``, of
+            whose points the nearest one counts, and pairs ``(polygon, weight)`` by which the weights inside are multiplied.
         objective, share_percent
             What is maximised: the ``"mean"`` of the contrasts at all targets (the default), the ``"worst"`` one, or as a ``"quantile"`` the
             one that a share of the targets, 10 % by default, stays below.

@@ -25,6 +25,8 @@ Places: TypeAlias = Row | Sequence[Row]
 Polygon: TypeAlias = Sequence[Row] | npt.NDArray[np.floating[Any]] | npt.NDArray[np.integer[Any]] | str
 #: Polygons, or one alone.
 Polygons: TypeAlias = Polygon | Sequence[Polygon]
+#: A polygon with its weight, in mm as a pair or a text, in m as a mapping.
+Important: TypeAlias = tuple[Polygon, float] | Mapping[str, Any] | str
 #: Points to be in focus, `(x, y[, gain[, hz]])` in mm and Hz, or mappings; or one alone.
 Points: TypeAlias = Row | Mapping[str, Any] | Sequence[Row | Mapping[str, Any]]
 #: A shape: a text as the command line has it, an SVG file, or a mapping.
@@ -129,6 +131,8 @@ class PlaceOptions(SurfaceOptions, AreaOptions, FigureOptions, total=False):
     screen: Polygons | None
     targets_within_mm: Polygons | None
     targets_within_m: Polygons | None
+    importance: Path | None
+    important: Important | Sequence[Important] | None
     targets: int | None
     objective: Objective | None
     share_percent: float | None

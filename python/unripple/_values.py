@@ -20,6 +20,9 @@ NOTHING: Any = object()
 #: What a polygon may be, for messages.
 _POLYGON = "at least three corners X,Y in mm"
 
+#: What a polygon with a weight may be, for messages.
+_WEIGHTED = "a polygon in mm and its weight"
+
 #: Most corners of a polygon that is a text: of more the command line takes some for a mistake.
 _CORNERS = 1000
 
@@ -210,6 +213,23 @@ def _polygon(name: str, value: object) -> list[list[float]]:
     if len(corners) < 3:
         raise AskError(field=name, expected=_POLYGON, found=f"{len(corners)} corners")
     return corners
+
+
+def important(name: str, value: object) -> list[dict[str, Any]]:
+    """Return areas with their weights: pairs of a polygon in mm and a number, texts as the command line has them, or mappings in m."""
+    if isinstance(value, tuple) and len(value) == 2 and is_number(value[1]):
+        return [_important(name, value)]
+    return [_important(name, item) for item in many(name, value)]
+
+
+def _important(name: str, item: object) -> dict[str, Any]:
+    if isinstance(item, Mapping):
+        return {str(key): plain(name, part) for key, part in item.items()}
+    parts = item.rpartition(":")[::2] if isinstance(item, str) else many(name, item)
+    if len(parts) != 2 or isinstance(item, str) and ":" not in item:
+        raise AskError(field=name, expected=_WEIGHTED, found=shown(item))
+    corners, weight = parts
+    return {"area_m": _polygon(name, corners), "weight": _parsed(name, weight, _WEIGHTED)}
 
 
 def distances(name: str, value: object) -> list[float]:

@@ -13,6 +13,7 @@
 //! - [`Library`] stores responses, measured or modelled, as a Zarr v3 folder that survives being killed, and exports
 //!   them as WAV and SOFA.
 //! - [`load_plan`] reads the plan of a sweep, [`load_search`] that of a search.
+//! - [`read_weights`] reads a table of how much each part of a surface counts.
 //! - [`ConfigFile`] is the user's file of options.
 //! - [`load_effects`] reads built-in effects, a file of effects, or one for phones; [`effects_to_toml`] writes one.
 //! - [`OutputDir`] collects what a run writes and puts it in place in one step, replacing only the output of an
@@ -50,6 +51,7 @@ mod svg;
 mod swap;
 mod underway;
 mod wav;
+mod weights;
 mod wide;
 
 pub use building::remove_left;
@@ -79,3 +81,4 @@ pub use surface::{parse_surface, parse_surface_with, to_toml};
 pub use svg::{Curve, Drawing, FillRule, Polyline, SvgShape, read_curves};
 pub use underway::{Abandoned, Underway, abandon_all};
 pub use wav::{Wav, decode_wav, encode_wav, read_wav, write_wav};
+pub use weights::read_weights;

@@ -7,8 +7,8 @@ use crate::error::CliError;
 use crate::typed::{each, of, seconds};
 use clap::Args;
 use std::path::PathBuf;
-use unripple_tasks::place::Ask;
-use unripple_tasks::text_forms::{polygon, weighted};
+use unripple_tasks::place::{Ask, ImportantAsk};
+use unripple_tasks::text_forms::{polygon, weighted, weighted_polygon};
 
 /// Options of `place`.
 #[derive(Debug, Args)]
@@ -47,6 +47,13 @@ pub struct PlaceOptions {
     /// from the rim. Repeatable: then in any of them.
     #[arg(long, value_name = "X,Y,X,Y,X,Y...", allow_hyphen_values = true, help_heading = heading::TARGETS)]
     pub screen: Vec<String>,
+    /// How much targets that are spread count by where they are: a CSV file with the columns x_mm, y_mm and weight, of whose points the
+    /// nearest one counts. By default all weigh the same.
+    #[arg(long, value_name = "FILE.csv", help_heading = heading::TARGETS)]
+    pub importance: Option<PathBuf>,
+    /// A polygon, as its corners in mm, and a factor on the weights of targets in it; with 0 no target is there. Repeatable.
+    #[arg(long, value_name = "X,Y,X,Y,X,Y...:WEIGHT", allow_hyphen_values = true, help_heading = heading::TARGETS)]
+    pub important: Vec<String>,
     /// Number of targets that the layout is optimised for, if none are given; layouts are evaluated on three
     /// times as many others.
     #[arg(long, value_name = "N", default_value_t = 20, help_heading = heading::TARGETS)]
@@ -91,6 +98,12 @@ pub struct PlaceOptions {
 }
 
 impl PlaceOptions {
+    /// The areas in which targets count more or less.
+    fn important(&self) -> Result<Vec<ImportantAsk>, CliError> {
+        let read = each(&self.important, "--important", weighted_polygon)?;
+        Ok(read.into_iter().map(|(area_m, weight)| ImportantAsk { area_m, weight }).collect())
+    }
+
     /// Converts the options to a request.
     pub fn ask(&self, common: &Common) -> Result<Ask, CliError> {
         let (points_m, weights) = of("--at", weighted(&self.at))?;
@@ -109,6 +122,8 @@ impl PlaceOptions {
             points_m,
             weights,
             targets_within_m: each(&self.screen, "--screen", polygon)?,
+            importance: self.importance.clone(),
+            important: self.important()?,
             targets: self.targets,
             objective: self.objective.into(),
             share: self.share_percent / 100.0,

@@ -178,6 +178,23 @@ fn targets_that_are_given_are_those_of_the_evaluation() {
 }
 
 #[test]
+fn targets_count_by_where_they_are() {
+    let scratch = Scratch::new("place-importance");
+    let left = "0,0,75,0,75,150,0,150";
+    // Whether it is said by an area or by a table, only the weights' ratios matter.
+    let table = scratch.file("map.csv", "x_mm,y_mm,weight\n37.5,75,6\n112.5,75,2\n");
+    let by_table = placed(&["--importance", &table, "--restarts", "2", "--window-ms", "10"]);
+    let area = format!("{left}:3");
+    let by_area = placed(&["--important", &area, "--restarts", "2", "--window-ms", "10"]);
+    let mean = |report: &Value| number(report, "/after/mean_contrast");
+    assert!((mean(&by_table) / mean(&by_area) - 1.0).abs() < 1e-6, "{by_table} {by_area}");
+    // With a factor of 0 no target is there, as with an area for the screen.
+    let none = placed(&["--important", &format!("{left}:0"), "--restarts", "2", "--window-ms", "10"]);
+    assert!(number(&none, "/after/worst_at_m/0") >= SIDE / 2.0, "{none}");
+    assert_eq!(["/placed_for", "/evaluated_on"].map(|key| number(&none, key)), [20.0, 60.0]);
+}
+
+#[test]
 fn the_worst_target_can_be_what_counts_with_errors_to_bear() {
     let report = placed(&["--mounting-mm", "2", "--tension-percent", "3", "--objective", "worst"]);
     assert_eq!(report["objective"], "least contrast");
@@ -219,6 +236,10 @@ fn bad_input_is_refused_with_the_option() {
         (&["--screen", "200,200,300,200,300,300"], "--screen"),
         (&["--at", "200,90"], "--at: expected points on the surface"),
         (&["--at", "62,90,0"], "--at: expected numbers above 0"),
+        (&["--important", "0,0,10,10,20,0"], "--important 0,0,10,10,20,0: expected X,Y,X,Y,X,Y...:WEIGHT"),
+        (&["--important", "0,0,150,0,150,150,0,150:0"], "--at, --screen: expected room for targets"),
+        (&["--importance", "none.csv"], "none.csv"),
+        (&["--importance", "none.csv", "--at", "62,90"], "--importance, --important: expected targets"),
         (&["--grid-mm", "-1"], "--grid-mm"),
         (&["--objective", "quantile", "--share-percent", "120"], "--share-percent"),
         (&["--mounting-mm", "-1"], "--mounting-mm"),

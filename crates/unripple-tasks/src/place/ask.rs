@@ -1,7 +1,7 @@
 //! Options of the task `place`.
 
-use crate::record::Request;
-use crate::{Place, SurfaceAsk, names};
+use crate::record::{Request, Visit};
+use crate::{Place, SurfaceAsk, TaskError, names};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple::focus::Method;
@@ -45,6 +45,11 @@ pub struct Ask {
     /// Polygons, such as the screen, in one of which targets must lie, each as its corners in m; by default anywhere at least one shortest
     /// wavelength from the rim.
     pub targets_within_m: Vec<Vec<Place>>,
+    /// How much targets that are spread over the surface count by where they are: a CSV file with the columns `x_mm`, `y_mm` and `weight`,
+    /// of whose points the nearest one counts. By default all weigh the same.
+    pub importance: Option<PathBuf>,
+    /// Areas in which targets count more or less: the weight of a target is multiplied by those of all areas that it is in.
+    pub important: Vec<ImportantAsk>,
     /// Number of targets that the layout is optimised for, if none are given; layouts are evaluated on three
     /// times as many others.
     pub targets: usize,
@@ -77,6 +82,16 @@ pub struct Ask {
     /// Width of all figures in columns of a printed page: 1 (86 mm) or 2 (178 mm); by default each figure
     /// has its own width.
     pub columns: Option<usize>,
+}
+
+/// An area, and how much the targets in it count.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImportantAsk {
+    /// The corners of the area, in m.
+    pub area_m: Vec<Place>,
+    /// Factor on the weights of targets inside it, from 0: with 0, no target is there.
+    pub weight: f64,
 }
 
 /// The objective that is maximised.
@@ -120,6 +135,8 @@ impl Default for Ask {
             points_m: Vec::new(),
             weights: Vec::new(),
             targets_within_m: Vec::new(),
+            importance: None,
+            important: Vec::new(),
             targets: 20,
             objective: ObjectiveAsk::Mean,
             share: 0.1,
@@ -142,6 +159,10 @@ impl Request for Ask {
 
     fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
         vec![&mut self.surface]
+    }
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        self.importance.as_mut().map_or(Ok(()), visit)
     }
 
     fn send_to(&mut self, output: Option<PathBuf>) {

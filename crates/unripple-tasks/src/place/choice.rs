@@ -2,7 +2,9 @@
 
 use super::Ask;
 use super::ask::TESTED;
-use super::setting::{footprint, named_targets, numbers, of_targets, reach, target_rules};
+use super::importance::Importance;
+use super::numbers::numbers;
+use super::setting::{footprint, named_targets, of_targets, reach, target_rules};
 use crate::TaskError;
 use crate::areas::{from_rim, polygons};
 use crate::numbers::above_zero;
@@ -65,8 +67,9 @@ impl Choice {
         numbers(ask)?;
         let Stored { responses, told, mut notes, .. } = stored;
         let (ports, kept, places) = actuators(ask, &responses, &surface.actuators)?;
+        let importance = Importance::of(ask)?;
         let (trained, tested) = match ask.points_m.is_empty() {
-            true => spread_targets(ask, &responses)?,
+            true => spread_targets(ask, &importance, &responses)?,
             false => {
                 let (aims, nearby) = nearest(ask, &responses)?;
                 notes.extend(nearby);
@@ -175,18 +178,23 @@ fn nearest(ask: &Ask, responses: &SampledResponses) -> Result<(Vec<Aim>, Vec<Not
 }
 
 /// Points of the library spread evenly over the surface: those that actuators are chosen for, and others on which choices are evaluated.
-fn spread_targets(ask: &Ask, responses: &SampledResponses) -> Result<(Vec<Aim>, Vec<Aim>), TaskError> {
+fn spread_targets(
+    ask: &Ask,
+    importance: &Importance,
+    responses: &SampledResponses,
+) -> Result<(Vec<Aim>, Vec<Aim>), TaskError> {
     let conditions = &responses.conditions;
     let rules = target_rules(ask, conditions.lambda_min);
     let free = |at: &Point| responses.ports.iter().all(|port| port.at.distance(*at) > SAME);
-    let may = |at: &&Point| rules.allow(&conditions.outline, **at) && free(at);
+    let may = |at: &&Point| rules.allow(&conditions.outline, **at) && free(at) && importance.at(**at) > 0.0;
     let mut left: Vec<Point> = responses.points.iter().filter(may).copied().collect();
     let count = left.len().min((1 + TESTED) * ask.targets);
     let mut aims = Vec::with_capacity(count);
     for even in spread(&conditions.outline, &rules, 0, count) {
         let apart = |i: &usize| left[*i].distance(even);
         if let Some(next) = (0..left.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))) {
-            aims.push(Aim { at: left.swap_remove(next), weight: 1.0 });
+            let at = left.swap_remove(next);
+            aims.push(Aim { at, weight: importance.at(at) });
         }
     }
     if aims.len() < 2 {
@@ -276,7 +284,7 @@ mod tests {
         // 17 x 7 of the points are a wavelength from the rim.
         for (targets, expected) in [(20, [20, 60]), (40, [40, 79]), (100, [59, 60])] {
             let ask = Ask { targets, ..Ask::default() };
-            let (trained, tested) = spread_targets(&ask, &responses).unwrap();
+            let (trained, tested) = spread_targets(&ask, &Importance::of(&ask).unwrap(), &responses).unwrap();
             assert_eq!([trained.len(), tested.len()], expected);
             let all: Vec<Point> = trained.iter().chain(&tested).map(|aim| aim.at).collect();
             for (i, at) in all.iter().enumerate() {
@@ -287,7 +295,7 @@ mod tests {
         let corner = vec![vec![[0.0, 0.0], [0.015, 0.0], [0.015, 0.015], [0.0, 0.015]]];
         let ask = Ask { targets_within_m: corner, ..Ask::default() };
         // Its only point is an actuator's.
-        assert!(spread_targets(&ask, &responses).is_err());
+        assert!(spread_targets(&ask, &Importance::of(&ask).unwrap(), &responses).is_err());
     }
 
     #[test]

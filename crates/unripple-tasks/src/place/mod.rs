@@ -5,7 +5,9 @@ mod by_method;
 mod choice;
 mod cost;
 mod figure;
+mod importance;
 mod measured;
+mod numbers;
 mod outcome;
 mod placed;
 mod refused;
@@ -15,7 +17,7 @@ mod setting;
 mod sought;
 mod text;
 
-pub use ask::{Ask, ObjectiveAsk};
+pub use ask::{Ask, ImportantAsk, ObjectiveAsk};
 pub use by_method::ByMethod;
 pub use placed::{Best, Build, Layout, More, Number, Placed, Random, Restarts};
 pub use report::Report;

@@ -1,6 +1,8 @@
 //! What a search for places works on: the surface without the actuators that are placed, the places, the targets.
 
 use super::ask::TESTED;
+use super::importance::Importance;
+use super::numbers::numbers;
 use super::refused::refused;
 use super::{Ask, cost};
 use crate::areas::{from_rim, polygons};
@@ -12,14 +14,11 @@ use std::f64::consts::PI;
 use unripple::act::{Note, accuracy, chosen_window, less_accurate, model};
 use unripple::core::{Actuator, ActuatorKind, Conditions, Outline, Patch, Point, Random, Responses, Surface};
 use unripple::physics::Transducer;
-use unripple_placement::{Aim, Plant, Rules, spread};
+use unripple_placement::{Aim, Plant, Rules};
 
 /// Share of the shortest wavelength that is the default spacing of places: shapes change little between two of them, and the polish moves
 /// actuators further.
 const PITCH: f64 = 1.0 / 7.0;
-
-/// Largest number of actuators, and of targets, of a request. More are taken for a mistake.
-const MOST: usize = 1000;
 
 /// Area of a focal disc, as a share of the surface's, from which a note says so. On the paper's film up to 500 Hz, where it is 1.2, the mean
 /// contrasts of random layouts differ by half; up to 1000 Hz, where it is 0.3, by a tenth.
@@ -193,48 +192,6 @@ pub(super) fn of_targets(conditions: &Conditions, held_out: bool) -> Vec<Note> {
     discs.into_iter().chain(seen).collect()
 }
 
-/// Checks the numbers of a request that need no surface.
-pub(super) fn numbers(ask: &Ask) -> Result<(), TaskError> {
-    let within = |field: &'static str, found: usize, least: usize| match (least..=MOST).contains(&found) {
-        true => Ok(()),
-        false => Err(TaskError::ask(field, format!("{least} to {MOST}"), found)),
-    };
-    within("count", ask.count, 1)?;
-    within("targets", ask.targets, 1)?;
-    within("restarts", ask.restarts, 0)?;
-    within("up_to", ask.up_to.unwrap_or(1), 1)?;
-    let share = |field: &'static str, found: f64, most: f64| match (0.0..=most).contains(&found) {
-        true => Ok(()),
-        false => Err(TaskError::ask(field, format!("a number from 0 to {most}"), found)),
-    };
-    let length = |field: &'static str, found: f64| match (0.0..=1.0).contains(&found) {
-        true => Ok(()),
-        false => Err(TaskError::ask(field, "a length from 0 to 1000 mm", format!("{} mm", 1e3 * found))),
-    };
-    share("share", ask.share, 1.0)?;
-    share("tension", ask.tension, 0.5)?;
-    // Beyond a metre, errors and distances are taken for mistakes of unit.
-    length("mounting_m", ask.mounting_m)?;
-    length("apart_m", ask.apart_m.unwrap_or(0.0))?;
-    ask.pitch_m.map_or(Ok(1.0), |pitch| above_zero(pitch, "pitch_m", "m"))?;
-    from_rim(ask.rim_m)?;
-    if !(ask.weights.is_empty() || ask.weights.len() == ask.points_m.len()) {
-        let expected = format!("{}, one for each of `points_m`", ask.points_m.len());
-        return Err(TaskError::ask("weights", expected, ask.weights.len()));
-    }
-    if let Some(weight) = ask.weights.iter().find(|weight| !(weight.is_finite() && **weight > 0.0)) {
-        return Err(TaskError::ask("weights", "numbers above 0", weight));
-    }
-    for (field, areas) in [
-        ("within_m", &ask.within_m),
-        ("keep_out_m", &ask.keep_out_m),
-        ("targets_within_m", &ask.targets_within_m),
-    ] {
-        polygons(field, areas)?;
-    }
-    Ok(())
-}
-
 /// Share of the shortest wavelength up to which errors of places can be borne: four nodes tell nothing of larger ones.
 const BEARABLE: f64 = 0.25;
 
@@ -330,20 +287,20 @@ pub(super) fn target_rules(ask: &Ask, lambda_min: f64) -> Rules {
 
 /// The targets that layouts are optimised for, and those on which they are evaluated.
 fn targets(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(Vec<Aim>, Vec<Aim>), TaskError> {
-    let outline = &surface.outline;
+    let (outline, importance) = (&surface.outline, Importance::of(ask)?);
     if !ask.points_m.is_empty() {
         let aims = named_targets(ask, outline)?;
         return Ok((aims.clone(), aims));
     }
     let rules = target_rules(ask, lambda_min);
-    let all = spread(outline, &rules, 0, (1 + TESTED) * ask.targets);
-    if all.len() < (1 + TESTED) * ask.targets {
-        let found = "hardly any: the surface is small compared with its shortest wavelength, or the areas lie beyond it";
+    let mut trained = importance.spread(outline, &rules, (1 + TESTED) * ask.targets);
+    if trained.len() < (1 + TESTED) * ask.targets {
+        let found = "hardly any: the surface is small compared with its shortest wavelength, or the areas lie beyond it, or nothing in them \
+                     has a weight";
         return Err(TaskError::ask("points_m, targets_within_m", "room for targets on the surface", found));
     }
-    let mut aims = all.into_iter().map(|at| Aim { at, weight: 1.0 });
-    let trained = aims.by_ref().take(ask.targets).collect();
-    Ok((trained, aims.collect()))
+    let tested = trained.split_off(ask.targets);
+    Ok((trained, tested))
 }
 
 /// The models of the surface: with its nominal tension, and if the tension may deviate, also with a lower and a higher

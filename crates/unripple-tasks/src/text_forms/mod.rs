@@ -21,6 +21,6 @@ mod waveforms;
 
 pub use named::{input_scales, key_and_value, values, wire};
 pub use numbers::{FormError, above_zero, interval, numbers};
-pub use places::{distances, place, polygon, weighted};
+pub use places::{distances, place, polygon, weighted, weighted_polygon};
 pub use targets::{path, point, shape};
 pub use waveforms::waveform;

@@ -60,6 +60,28 @@ pub fn polygon(text: &str) -> Result<Vec<Place>, FormError> {
     }
 }
 
+/// Reads the corners of a polygon and its weight, `X,Y,X,Y,X,Y...:WEIGHT` in mm; gives the corners in m.
+///
+/// # Errors
+/// [`FormError`] of a text without `:`, of a weight that is no finite number from 0, and those of [`polygon`].
+///
+/// ```
+/// use unripple_tasks::text_forms::weighted_polygon;
+///
+/// let (corners, weight) = weighted_polygon("0,0,10,0,10,20:3")?;
+/// assert_eq!((corners.len(), weight), (3, 3.0));
+/// # Ok::<(), unripple_tasks::text_forms::FormError>(())
+/// ```
+pub fn weighted_polygon(text: &str) -> Result<(Vec<Place>, f64), FormError> {
+    let form = "X,Y,X,Y,X,Y...:WEIGHT in mm";
+    let (corners, weight) = text.rsplit_once(':').ok_or_else(|| FormError::new(text, form, "no weight"))?;
+    let weight = numbers(weight, "a weight from 0", 1, 1).map_err(|error| error.within(text, "weight"))?[0];
+    match weight >= 0.0 {
+        true => Ok((polygon(corners)?, weight)),
+        false => Err(FormError::new(text, form, format!("a weight of {weight}"))),
+    }
+}
+
 /// Reads a least and a greatest distance, `LEAST,MOST` in mm; gives them in m. Which of them is larger is left to the task.
 ///
 /// # Errors
@@ -96,6 +118,22 @@ mod tests {
         assert!(weighted(&["62,90"]).unwrap().1.is_empty());
         let said = weighted(&["62,90", "1,2,3,4"]).unwrap_err().of("--at");
         assert_eq!(said, "--at 1,2,3,4: expected X,Y[,WEIGHT] in mm, found 4 numbers");
+    }
+
+    #[test]
+    fn weights_of_polygons_are_numbers_from_0() {
+        let said = |text: &str| weighted_polygon(text).unwrap_err().of("--important");
+        assert_eq!(
+            said("0,0,10,10,20,0"),
+            "--important 0,0,10,10,20,0: expected X,Y,X,Y,X,Y...:WEIGHT in mm, found no weight"
+        );
+        assert_eq!(
+            said("0,0,10,10,20,0:x"),
+            "--important 0,0,10,10,20,0:x: weight: expected a weight from 0, found `x`"
+        );
+        assert!(said("0,0,10,10,20,0:-1").ends_with("found a weight of -1"));
+        assert!(said("0,0,10,10:1").contains("at least three corners"));
+        assert_eq!(weighted_polygon("0,0,10,10,20,0:0").unwrap().1, 0.0);
     }
 
     #[test]
