@@ -239,7 +239,6 @@ fn bad_input_is_refused_with_the_option() {
         (&["--important", "0,0,10,10,20,0"], "--important 0,0,10,10,20,0: expected X,Y,X,Y,X,Y...:WEIGHT"),
         (&["--important", "0,0,150,0,150,150,0,150:0"], "--at, --screen: expected room for targets"),
         (&["--importance", "none.csv"], "none.csv"),
-        (&["--importance", "none.csv", "--at", "62,90"], "--importance, --important: expected targets"),
         (&["--grid-mm", "-1"], "--grid-mm"),
         (&["--objective", "quantile", "--share-percent", "120"], "--share-percent"),
         (&["--mounting-mm", "-1"], "--mounting-mm"),

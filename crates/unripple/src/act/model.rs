@@ -2,8 +2,9 @@
 
 use super::{ActError, Note};
 use crate::core::{Contact, Responses, Surface};
-use crate::physics::{ResponseOptions, responses};
+use crate::physics::{Modes, ResponseOptions, response_modes, responses, responses_on};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 pub use crate::physics::accuracy;
 
@@ -36,16 +37,57 @@ pub fn less_accurate(error: f64, aim: f64) -> Option<Note> {
 /// # Errors
 /// [`ActError::Empty`] if no mode is within the band; those of [`responses`].
 pub fn model(surface: &Surface, max_hz: Option<f64>, contacts: &[Contact]) -> Result<Responses, ActError> {
-    let accuracy = accuracy(surface);
-    let contacts = contacts.to_vec();
-    let options = ResponseOptions { max_hz, accuracy, contacts, ..ResponseOptions::default() };
+    let options = ResponseOptions { contacts: contacts.to_vec(), ..options(surface, max_hz) };
     let found = responses(surface, &options)?;
-    if let Responses::Modal(modal) = &found
-        && modal.poles.is_empty()
-    {
-        return Err(ActError::Empty { band: surface.emission.band, next: next(surface, &options) });
+    filled(surface, &options, found)
+}
+
+/// The modes of the sheet without loads from which [`model_on`] computes responses, up to `max_hz` (Hz; by default the top of the surface's
+/// band): the same for all places of its actuators.
+///
+/// # Errors
+/// Those of [`response_modes`].
+pub fn model_modes(surface: &Surface, max_hz: Option<f64>) -> Result<Modes, ActError> {
+    Ok(response_modes(surface, &options(surface, max_hz))?)
+}
+
+/// The responses of [`model`] without fingers, from modes that [`model_modes`] has computed for the same frequency and for the same surface, or
+/// for one whose actuators are at other places.
+///
+/// # Errors
+/// Those of [`model`].
+///
+/// ```
+/// use std::sync::Arc;
+/// use unripple::act::{model, model_modes, model_on};
+///
+/// let mut film = unripple::physics::design::papers_surface();
+/// film.emission.band = [0.0, 500.0];
+/// let modes = Arc::new(model_modes(&film, None)?);
+/// film.actuators[0].at.x += 0.01;
+/// let [own, shared] = [model(&film, None, &[])?, model_on(&film, modes, None)?];
+/// assert_eq!(own.ports(), shared.ports());
+/// # Ok::<(), unripple::act::ActError>(())
+/// ```
+pub fn model_on(surface: &Surface, modes: Arc<Modes>, max_hz: Option<f64>) -> Result<Responses, ActError> {
+    let options = options(surface, max_hz);
+    let found = responses_on(surface, modes, &options)?;
+    filled(surface, &options, found)
+}
+
+/// The options of responses without fingers.
+fn options(surface: &Surface, max_hz: Option<f64>) -> ResponseOptions {
+    ResponseOptions { max_hz, accuracy: accuracy(surface), ..ResponseOptions::default() }
+}
+
+/// Responses that have a mode; an error if they have none.
+fn filled(surface: &Surface, options: &ResponseOptions, found: Responses) -> Result<Responses, ActError> {
+    match &found {
+        Responses::Modal(modal) if modal.poles.is_empty() => {
+            Err(ActError::Empty { band: surface.emission.band, next: next(surface, options) })
+        }
+        _ => Ok(found),
     }
-    Ok(found)
 }
 
 /// The lowest mode above an empty band, in Hz, if it is within 16 times the top of the band.

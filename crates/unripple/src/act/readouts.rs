@@ -22,6 +22,8 @@ const FEWEST: f64 = 1.0;
 #[derive(Debug)]
 pub struct Readouts<'a> {
     responses: &'a Responses,
+    /// Cells per shortest wavelength of the grid for metrics.
+    cells: f64,
     fewest: OnceLock<Readout<'a>>,
     coarse: OnceLock<Readout<'a>>,
     fine: OnceLock<Readout<'a>>,
@@ -31,18 +33,27 @@ impl<'a> Readouts<'a> {
     /// Readouts of `responses`, on which drives are evaluated; each grid is computed when it is first
     /// needed.
     pub fn of(responses: &'a Responses) -> Self {
-        Self { responses, fewest: OnceLock::new(), coarse: OnceLock::new(), fine: OnceLock::new() }
+        Self::with_cells(responses, CELLS)
     }
 
-    /// Readout on the grid for metrics, [`CELLS`] cells per shortest wavelength.
+    /// Readouts whose grid for metrics has half as many cells along each side: for searches that compare many drives, in a fourth of the time.
+    pub fn thinned(responses: &'a Responses) -> Self {
+        Self::with_cells(responses, COARSE)
+    }
+
+    fn with_cells(responses: &'a Responses, cells: f64) -> Self {
+        Self { responses, cells, fewest: OnceLock::new(), coarse: OnceLock::new(), fine: OnceLock::new() }
+    }
+
+    /// Readout on the grid for metrics, [`CELLS`] cells per shortest wavelength, or half as many if these are [`Readouts::thinned`].
     ///
     /// # Errors
     /// Those of [`Readout::new`].
     pub fn fine(&self) -> Result<&Readout<'a>, ActError> {
-        self.made(&self.fine, CELLS)
+        self.made(&self.fine, self.cells)
     }
 
-    /// Readout on a coarser grid, with half as many cells along each side as [`Readouts::fine`].
+    /// Readout on a coarser grid, with half as many cells along each side as metrics have by default.
     ///
     /// # Errors
     /// Those of [`Readout::new`].
