@@ -10,7 +10,7 @@
 //! A [`Plant`] is a surface with the actuators that it keeps, and the kind of actuator that is placed on it. [`Rules`] say where
 //! actuators may be, [`spread`] makes targets. [`Forms`] are the two sums, a [`Search`] finds layouts ([`Found`]), and [`Polish`] moves
 //! their actuators off the grid. [`reached`] gives the contrast of a layout at each target, and an [`Objective`] condenses these
-//! contrasts to one number.
+//! contrasts to one number. [`Search::refined`] goes on by any score that has to be evaluated layout by layout.
 //!
 //! [`Forms::sampled`] are the same sums for responses that were measured: then the search chooses among the actuators of a library, and
 //! [`reached_from`] gives the contrast of a choice at each target.
@@ -57,6 +57,7 @@ mod objective;
 mod picking;
 mod plant;
 mod polish;
+mod refine;
 mod rules;
 mod sampled;
 mod search;
@@ -73,6 +74,7 @@ pub use objective::Objective;
 pub use picking::{Picked, Picking};
 pub use plant::Plant;
 pub use polish::Polish;
+pub use refine::{Refined, Refining};
 pub use rules::Rules;
 pub use search::{Found, Search};
 pub use spread::spread;

@@ -6,5 +6,6 @@ mod contrast;
 mod exhaustive;
 mod mounting;
 mod picking;
+mod refine;
 mod sampled;
 mod search;
