@@ -76,7 +76,7 @@ impl Search<'_> {
         score: impl FnMut(&[usize]) -> Result<f64, E>,
     ) -> Result<Option<Refined>, E> {
         let mut scores = Scores { score, known: HashMap::new(), most: refining.evaluations };
-        let mut begun = Vec::new();
+        let mut begun: Vec<(&[usize], f64)> = Vec::new();
         for start in starts {
             begun.extend(scores.of::<E>(start)?.map(|score| (start.as_slice(), score)));
         }
