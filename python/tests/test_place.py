@@ -106,6 +106,12 @@ def test_areas_with_weights(value: Any) -> None:
     assert _asked(important=value) == {"important": [{"area_m": _CORNERS_M, "weight": 3}]}
 
 
+def test_a_figure_of_a_method_is_named_as_on_the_command_line() -> None:
+    wanted = {"methods": ["inverse"], "by": "felt-contrast", "evaluations": 9}
+    assert _asked(method="inverse", by="felt-contrast", evaluations=9) == wanted
+    assert _asked(methods=["inverse"], by="felt_contrast", evaluations=9) == wanted
+
+
 def test_options_in_si_units_are_the_same() -> None:
     wanted = {"rim_m": [0.006, 0.012], "places_m": [[0.01, 0.02]], "pitch_m": 0.002, "share": 0.3, "tension": 0.01}
     assert _asked(rim_mm="6,12", place=(10, 20), grid_mm=2, share_percent=30, tension_percent=1) == wanted

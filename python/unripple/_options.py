@@ -155,7 +155,7 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
     "design": (),
     "modes": (Option("max_hz", "top_hz", number), *_same(number, "accuracy")),
     "place": (
-        *_same(count, "count", "targets", "restarts", "seed", "up_to"),
+        *_same(count, "count", "targets", "restarts", "seed", "up_to", "evaluations"),
         *_same(_values.texts, "keep"),
         *_same(flag, "keep_all"),
         *_same(text, "like", "objective"),
@@ -175,6 +175,7 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         Option("tension_percent", "tension", percent),
         *_WINDOW,
         Option("method", "methods", _methods),
+        *_same(_method, "by"),
         *_FIGURES,
     ),
     "sensors": (

@@ -115,6 +115,10 @@ class Reporting:
             Largest number of actuators in the table of contrast against their number; by default twice `count`.
         method
             Methods of focusing whose drives are evaluated with the surface's own actuators and with the placed ones.
+        by, evaluations
+            A figure of the drives of the first method by which layouts are compared in a second search, ``"contrast"``,
+            ``"felt-contrast"``, ``"felt-level"`` or ``"energy-for-peak"``; without it there is none. And the largest number of layouts
+            whose drives are computed and evaluated for it, by default 6, and 8 for each actuator that is placed, up to 200.
         output, no_figures, columns
             Folder for the surface with the placed actuators (``surface.toml``), report and figures; as for :meth:`focus`.
 

@@ -51,6 +51,7 @@ Times: TypeAlias = float | Sequence[float] | npt.NDArray[np.floating[Any]]
 Method: TypeAlias = Literal["time-reversal", "one-bit", "inverse", "concentrate", "limited", "robust", "felt"]
 Between: TypeAlias = Literal["nearest", "linear", "kernel"]
 Objective: TypeAlias = Literal["mean", "worst", "quantile"]
+Figure: TypeAlias = Literal["contrast", "felt-contrast", "felt-level", "energy-for-peak"]
 Sensing: TypeAlias = Literal["sweeps", "taps"]
 Losses: TypeAlias = Literal["none", "uniform", "per-mode"]
 Device: TypeAlias = Literal["virtual", "jack", "card", "tape"]
@@ -145,6 +146,8 @@ class PlaceOptions(SurfaceOptions, AreaOptions, FigureOptions, total=False):
     window_s: float | None
     method: Method | Sequence[Method] | None
     methods: Sequence[Method] | None
+    by: Figure | None
+    evaluations: int | None
 
 
 class SensorsOptions(SurfaceOptions, AreaOptions, FigureOptions, total=False):

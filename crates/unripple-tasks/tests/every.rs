@@ -7,6 +7,8 @@ mod by_name;
 mod curves;
 #[path = "every/given.rs"]
 mod given;
+#[path = "every/place_by.rs"]
+mod place_by;
 #[path = "every/reach.rs"]
 mod reach;
 #[path = "every/optimise.rs"]

@@ -45,12 +45,14 @@ pub const COMPARE: &str = "Examples:
     unripple compare film.toml glass.toml --at 62,90 --method concentrate --method felt -o out
     unripple compare hudin-2012 --vary sheet.tension_n_per_m=200,300,400 --at 62,90 -o out";
 
-/// For `place`: near the rim, around a screen, one more, those of a library to keep.
+/// For `place`: near the rim, around a screen, for another method, one more, those of a library to keep.
 pub const PLACE: &str = "Examples:
   Eight actuators, 6 to 12 mm from the rim:
     unripple place hudin-2012 --rim-mm 6,12 -o placed
   Four that tolerate mounting errors of 1 mm, around a screen:
     unripple place my-surface.toml --count 4 --mounting-mm 1 --screen 30,30,120,30,120,120,30,120
+  Eight for what is felt of drives of another method:
+    unripple place hudin-2012 --rim-mm 6,12 --method concentrate --by felt-contrast -o placed
   One more, with those of the file kept:
     unripple place my-surface.toml --count 1 --keep-all
   The eight of a library's actuators to keep:

@@ -7,7 +7,7 @@ use unripple_tasks::DeviceKind;
 use unripple_tasks::calibrate::By;
 use unripple_tasks::export::Format;
 use unripple_tasks::focus::Losses;
-use unripple_tasks::place::ObjectiveAsk;
+use unripple_tasks::place::{ByAsk, ObjectiveAsk};
 
 /// Defines names, each with its help, and their conversion to the values of the same names of another type.
 macro_rules! names {
@@ -53,6 +53,18 @@ names! {
         Worst,
         /// The contrast that a share of the targets stays below.
         Quantile,
+    }
+
+    /// Figures of drives by which layouts are compared.
+    FigureName => ByAsk {
+        /// Contrast at the focal instant.
+        Contrast,
+        /// Felt contrast.
+        FeltContrast,
+        /// Felt level at the target with the drive at its limit.
+        FeltLevel,
+        /// Least energy of the drive for a peak velocity.
+        EnergyForPeak,
     }
 
     /// How a point is measured.

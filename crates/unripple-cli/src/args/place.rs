@@ -1,6 +1,6 @@
 //! Options of `unripple place`.
 
-use super::names::{MethodName, ObjectiveName};
+use super::names::{FigureName, MethodName, ObjectiveName};
 use super::{AreaOptions, FigureOptions, examples, heading};
 use crate::common::Common;
 use crate::error::CliError;
@@ -58,7 +58,7 @@ pub struct PlaceOptions {
     /// times as many others.
     #[arg(long, value_name = "N", default_value_t = 20, help_heading = heading::TARGETS)]
     pub targets: usize,
-    /// The objective to be maximised, from the contrasts of time reversal at all targets.
+    /// The objective to be maximised, from the contrasts of time reversal at all targets, or from the figures that --by names.
     #[arg(long, value_enum, default_value_t, help_heading = heading::SEARCH)]
     pub objective: ObjectiveName,
     /// For the objective `quantile`: share of the targets that may be worse, in per cent.
@@ -89,6 +89,14 @@ pub struct PlaceOptions {
     /// ones. Repeatable.
     #[arg(long, value_enum, help_heading = heading::METHOD)]
     pub method: Vec<MethodName>,
+    /// A figure of the drives of the first --method (by default time reversal) by which layouts are compared in a second search, which
+    /// begins with the best layouts for the contrast of time reversal. It takes minutes.
+    #[arg(long, value_enum, value_name = "FIGURE", help_heading = heading::METHOD)]
+    pub by: Option<FigureName>,
+    /// Largest number of layouts whose drives are computed and evaluated for --by; by default 6, and 8 for each actuator that is placed, up
+    /// to 200.
+    #[arg(long, value_name = "N", help_heading = heading::METHOD)]
+    pub evaluations: Option<usize>,
     #[command(flatten)]
     pub figures: FigureOptions,
     /// Folder for the surface file with the placed actuators (for a library, the names of the chosen ones), the report and pictures; without
@@ -134,6 +142,8 @@ impl PlaceOptions {
             seed: self.seed,
             up_to: self.up_to,
             methods: self.method.iter().copied().map(Into::into).collect(),
+            by: self.by.map(Into::into),
+            evaluations: self.evaluations,
             output: self.output.clone(),
             no_figures: self.figures.no_figures,
             columns: self.figures.columns,

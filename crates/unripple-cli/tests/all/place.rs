@@ -207,6 +207,23 @@ fn the_worst_target_can_be_what_counts_with_errors_to_bear() {
 }
 
 #[test]
+fn layouts_can_be_compared_by_what_drives_of_a_method_reach() {
+    let places = ["--place", "12,20", "--place", "75,9", "--place", "139,60", "--place", "10,90"];
+    let drives = ["--method", "inverse", "--by", "felt-contrast", "--evaluations", "5"];
+    let targets = ["--count", "2", "--at", "62,90", "--at", "90,40,2", "--window-ms", "15"];
+    let report = json(&[&FILM[..], &targets, &places, &drives].concat());
+    let second = &report["second_search"];
+    assert_eq!((&second["method"], &second["by"]), (&"inverse".into(), &"felt_contrast_db".into()));
+    assert_eq!(second["objective"], "mean felt contrast (dB)");
+    assert!(number(second, "/layouts") <= 5.0 && number(second, "/most_layouts") == 5.0, "{second}");
+    let [before, found] = ["time_reversal", "found"].map(|key| number(second, &format!("/searched/{key}")));
+    assert!(found >= before, "{second}");
+    // The table by method is of the layout that was found, but does not weigh targets.
+    assert!(number(&report, "/methods/0/after/felt_contrast_db") > 0.0, "{report}");
+    assert!(placed(&["--restarts", "1"])["second_search"].is_null());
+}
+
+#[test]
 fn the_text_has_the_layouts_beside_each_other() {
     let output = run(&[&FILM[..], &["--count", "3", "--rim-mm", "6,12"]].concat());
     let text = String::from_utf8(output.stdout).unwrap();
@@ -239,6 +256,9 @@ fn bad_input_is_refused_with_the_option() {
         (&["--important", "0,0,10,10,20,0"], "--important 0,0,10,10,20,0: expected X,Y,X,Y,X,Y...:WEIGHT"),
         (&["--important", "0,0,150,0,150,150,0,150:0"], "--at, --screen: expected room for targets"),
         (&["--importance", "none.csv"], "none.csv"),
+        (&["--evaluations", "5"], "--evaluations: expected a figure that layouts are compared by, as --by"),
+        (&["--by", "contrast", "--evaluations", "0"], "--evaluations: expected 1 to 1000"),
+        (&["--by", "loudness"], "--by"),
         (&["--grid-mm", "-1"], "--grid-mm"),
         (&["--objective", "quantile", "--share-percent", "120"], "--share-percent"),
         (&["--mounting-mm", "-1"], "--mounting-mm"),

@@ -72,9 +72,15 @@ pub struct Ask {
     pub seed: u64,
     /// Largest number of actuators of the curve of contrast against their number; by default twice `count`.
     pub up_to: Option<usize>,
-    /// Methods of focusing whose drives are evaluated before and after.
+    /// Methods of focusing whose drives are evaluated before and after. With `by`, the layout is optimised for drives of the first one.
     #[serde(with = "names::methods")]
     pub methods: Vec<Method>,
+    /// A figure of the drives of the first of `methods` (or of time reversal) by which layouts are compared in a second search, which begins
+    /// with the best ones for the contrast of time reversal; by default there is none.
+    pub by: Option<ByAsk>,
+    /// Largest number of layouts whose drives are computed and evaluated in that search; by default 6, and 8 for each actuator that is
+    /// placed, up to 200.
+    pub evaluations: Option<usize>,
     /// Folder for the placed surface (of a library, the names of the chosen actuators), report and figures; by default no file is written.
     pub output: Option<PathBuf>,
     /// Write no figures.
@@ -105,6 +111,20 @@ pub enum ObjectiveAsk {
     Worst,
     /// The contrast that a share of the targets stays below.
     Quantile,
+}
+
+/// A figure of a drive, by which layouts are compared: those of the results by method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ByAsk {
+    /// Contrast at the focal instant; the larger, the better.
+    Contrast,
+    /// Felt contrast; the larger, the better.
+    FeltContrast,
+    /// Felt level at the target with the drive at its limit; the larger, the better.
+    FeltLevel,
+    /// Energy of the drive for a peak velocity; the smaller, the better.
+    EnergyForPeak,
 }
 
 impl Ask {
@@ -147,6 +167,8 @@ impl Default for Ask {
             seed: 1,
             up_to: None,
             methods: Vec::new(),
+            by: None,
+            evaluations: None,
             output: None,
             no_figures: false,
             columns: None,

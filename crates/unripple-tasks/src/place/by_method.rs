@@ -8,7 +8,7 @@ use unripple::core::{Point, Surface};
 use unripple::focus::{Method, Options, Target};
 
 /// Number of targets on which drives are computed. With twice as many, this takes twice the time, which is most of the task's.
-const TARGETS: usize = 6;
+pub(super) const TARGETS: usize = 6;
 
 /// Metrics of the drives of one focusing method, averaged over some targets and simulated on modes up to twice
 /// the top of the band.

@@ -47,7 +47,7 @@ pub(super) struct Choice {
 }
 
 /// Names of the fields that need a model, and whether the request sets them.
-pub(super) fn needing_modes(ask: &Ask) -> [(&'static str, bool); 6] {
+pub(super) fn needing_modes(ask: &Ask) -> [(&'static str, bool); 7] {
     [
         ("like", ask.like.is_some()),
         ("places_m", !ask.places_m.is_empty()),
@@ -55,6 +55,7 @@ pub(super) fn needing_modes(ask: &Ask) -> [(&'static str, bool); 6] {
         ("mounting_m", ask.mounting_m != 0.0),
         ("tension", ask.tension != 0.0),
         ("method", !ask.methods.is_empty()),
+        ("by", ask.by.is_some()),
     ]
 }
 

@@ -1,11 +1,11 @@
 //! What a search for places costs, before anything is solved.
 
-use super::Ask;
 use super::ask::TESTED;
+use super::{Ask, second};
 use crate::Progress;
 use crate::cost;
-use unripple::act::model_cost;
-use unripple::core::{Cost, Surface};
+use unripple::act::{ActError, judging_cost, model_cost};
+use unripple::core::{Actuator, Cost, Point, Surface};
 use unripple::physics::design::expected_modes;
 
 /// Floating-point operations per second in single precision over those in double precision.
@@ -14,16 +14,41 @@ const SINGLE: f64 = 2.0;
 /// Columns that are evaluated beside the places: layouts of random, perturbed and other numbers of actuators, for each actuator.
 const EVALUATED: usize = 100;
 
+/// Points of fields over those that are read where they are thinned.
+const THINNED: usize = 4;
+
 /// Nodes of where each place may be, where it is known to within an error.
 const NODES: usize = 4;
 
-/// Tells what the search among so many places will cost.
-pub(super) fn announce(ask: &Ask, surface: &Surface, places: usize, progress: &mut dyn Progress) {
+/// Tells what the search among `places` will cost, on a surface with the kept actuators, for actuators like `kind`.
+pub(super) fn announce(
+    ask: &Ask,
+    (surface, kind): (&Surface, &Actuator),
+    places: &[Point],
+    progress: &mut dyn Progress,
+) {
+    let less = match ask.by {
+        None => "a lower top of the band, a larger pitch of the places or fewer targets",
+        Some(_) => "a lower top of the band or fewer evaluations",
+    };
     // What cannot be estimated is refused where it is computed.
-    if let Ok(model) = model_cost(surface, None, &[]) {
-        let less = "a lower top of the band, a larger pitch of the places or fewer targets";
-        cost::announce(model + search(ask, surface, places), less, progress);
+    if let (Ok(model), Ok(second)) =
+        (model_cost(surface, None, &[]), second_search(ask, surface, kind, places))
+    {
+        cost::announce(model + second + search(ask, surface, places.len()), less, progress);
     }
+}
+
+/// The cost of the drives of a second search, whose fields are read at a fourth of the points, and of those with which it ends.
+fn second_search(ask: &Ask, kept: &Surface, kind: &Actuator, places: &[Point]) -> Result<Cost, ActError> {
+    if ask.by.is_none() {
+        return Ok(Cost::default());
+    }
+    let mut surface = kept.clone();
+    let put = |(i, at): (usize, &Point)| Actuator { name: format!("place {i}"), at: *at, ..kind.clone() };
+    surface.actuators.extend(places.iter().take(ask.count).enumerate().map(put));
+    let drives = second::most(ask) * second::SEARCHED / THINNED + 2 * second::EVALUATED;
+    judging_cost(&surface, None, &[], ask.window_s, drives)
 }
 
 /// The cost of the fields of all places and of layouts; the search itself is short beside them.

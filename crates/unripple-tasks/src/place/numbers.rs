@@ -5,7 +5,7 @@ use crate::TaskError;
 use crate::areas::{from_rim, polygons};
 use crate::numbers::above_zero;
 
-/// Largest number of actuators, and of targets, of a request. More are taken for a mistake.
+/// Largest number of actuators, of targets, and of layouts that are evaluated one by one. More are taken for a mistake.
 const MOST: usize = 1000;
 
 /// Checks the numbers of a request that need no surface.
@@ -18,6 +18,14 @@ pub(super) fn numbers(ask: &Ask) -> Result<(), TaskError> {
     within("targets", ask.targets, 1)?;
     within("restarts", ask.restarts, 0)?;
     within("up_to", ask.up_to.unwrap_or(1), 1)?;
+    within("evaluations", ask.evaluations.unwrap_or(1), 1)?;
+    if ask.evaluations.is_some() && ask.by.is_none() {
+        return Err(TaskError::ask(
+            "evaluations",
+            "a figure that layouts are compared by, as `by` names it",
+            "none",
+        ));
+    }
     let share = |field: &'static str, found: f64, most: f64| match (0.0..=most).contains(&found) {
         true => Ok(()),
         false => Err(TaskError::ask(field, format!("a number from 0 to {most}"), found)),

@@ -1,7 +1,7 @@
 //! Report of the task `place`.
 
-use super::ByMethod;
 use super::placed::{Best, Build, Layout, More, Number, Random, Restarts};
+use super::{ByMethod, Second};
 use serde::Serialize;
 use unripple::act::Note;
 
@@ -29,7 +29,7 @@ pub struct Report {
     /// Spacing of the grid of places, in m; absent where places were given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch_m: Option<f64>,
-    /// The objective that was maximised, in words.
+    /// The objective that was maximised, in words; that of the first search, if there were two.
     pub objective: String,
     /// Window T, in s.
     pub window_s: f64,
@@ -55,6 +55,9 @@ pub struct Report {
     pub restarts: Restarts,
     /// The best of all layouts on the grid, if there were few enough to compare all.
     pub certificate: Best,
+    /// The search by what drives of a method reach; absent if none was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub second_search: Option<Second>,
     /// Layouts of every number of actuators, each made from the one before.
     pub each_number: Vec<Number>,
     /// Contrast with random errors of the actuators' places; empty for a library.

@@ -6,7 +6,7 @@ use super::placed::{Build, Layout, Number, Placed, Random, Restarts};
 use super::refused::refused;
 use super::setting::Setting;
 use super::sought::{OTHERS, RANDOM, Sought, objective_name};
-use super::{Ask, Report, by_method, choice, figure, measured};
+use super::{Ask, Report, Second, by_method, choice, figure, measured, second};
 use crate::figures::Columns;
 use crate::{Progress, TaskError, figures, folder, go_on, source};
 use unripple::core::{Actuator, Point, Surface};
@@ -89,14 +89,9 @@ fn found(
     let at: Vec<Point> = stay.chain(setting.places.iter().copied()).collect();
     let objective = ask.objective();
     let search = Search { forms: &forms, at: &at, kept, apart: setting.apart(ask), objective };
-    let sought = Sought::of(ask, &search, progress)?;
-    go_on(progress)?;
-    progress.stage("polish");
-    let grid: Vec<Point> = sought.best.actuators[kept..].iter().map(|a| at[*a]).collect();
-    let (places, polished) = match setting.pitch {
-        Some(pitch) => polish(ask, setting).polished(grid, pitch).map_err(refused)?,
-        None => (grid, sought.best.score),
-    };
+    let mut sought = Sought::of(ask, &search, progress)?;
+    let best = sought.best.score;
+    let (places, polished, second) = settled(ask, setting, &search, &mut sought, progress)?;
     let built = setting.built(&places);
     let evaluated = Evaluated::of(ask, setting, &search, (&sought.each, &places), progress)?;
     progress.stage("methods");
@@ -104,13 +99,40 @@ fn found(
     let one_more = sought.one_more(&search);
     let drawn = sought.free(&search);
     let report = Report {
-        restarts: Restarts { reached: sought.reached, best: sought.best.score, polished },
+        restarts: Restarts { reached: sought.reached, best, polished },
         certificate: sought.certificate,
+        second_search: second,
         one_more,
         methods,
         ..evaluated.report(ask, setting, &built)
     };
     Ok((report, built, drawn))
+}
+
+/// The places of the final layout, the contrast of time reversal with actuators off the grid, and what a second search found. The best layout
+/// on the grid is then the one that this search chose.
+fn settled(
+    ask: &Ask,
+    setting: &Setting,
+    search: &Search<'_>,
+    sought: &mut Sought,
+    progress: &mut dyn Progress,
+) -> Result<(Vec<Point>, f64, Option<Second>), TaskError> {
+    go_on(progress)?;
+    progress.stage("polish");
+    let grid: Vec<Point> = sought.best.actuators[search.kept..].iter().map(|a| search.at[*a]).collect();
+    let (places, polished) = match setting.pitch {
+        Some(pitch) => polish(ask, setting).polished(grid, pitch).map_err(refused)?,
+        None => (grid, sought.best.score),
+    };
+    let Some(by) = ask.by else { return Ok((places, polished, None)) };
+    go_on(progress)?;
+    let starts = sought.leading(second::STARTS);
+    let found = second::searched(ask, by, setting, (search, &starts), &places, progress)?;
+    if let Some(chosen) = found.chosen {
+        sought.choose(search, chosen);
+    }
+    Ok((found.places, polished, Some(found.second)))
 }
 
 fn polish<'a>(ask: &Ask, setting: &'a Setting) -> Polish<'a> {
@@ -196,7 +218,7 @@ impl Evaluated {
             random: self.random,
             each_number: self.each,
             mounting: self.builds,
-            notes: setting.notes(),
+            notes: setting.notes(ask),
             ..Report::default()
         }
     }

@@ -73,7 +73,7 @@ impl Setting {
         let window_s = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
         window_s.map_or(Ok(()), |window| carries(&conditions(&surface), window, "window_s"))?;
         bearable(ask, &surface, lambda_min)?;
-        cost::announce(ask, &kept, places.len(), progress);
+        cost::announce(ask, (&kept, &kind), &places, progress);
         progress.stage("modes");
         let plants = plants(ask, &kept, &kind)?;
         go_on(progress)?;
@@ -103,7 +103,7 @@ impl Setting {
     }
 
     /// Notes on effects that the search leaves out, and on results that are less accurate than usual.
-    pub fn notes(&self) -> Vec<Note> {
+    pub fn notes(&self, ask: &Ask) -> Vec<Note> {
         let mut notes = Vec::new();
         let error = self.plants[0].frequency_error();
         notes.extend(less_accurate(error, accuracy(&self.surface).aim));
@@ -113,7 +113,13 @@ impl Setting {
         if loads {
             let text = "while places are compared, the actuators to be placed do not load the sheet: their masses, springs and electrical \
                         damping count only in the results by method";
-            notes.push(Note { topic: "loads", text: text.into() });
+            let second = if ask.by.is_some() { ", and in the search by them" } else { "" };
+            notes.push(Note { topic: "loads", text: format!("{text}{second}") });
+        }
+        if ask.by.is_some() && (ask.mounting_m > 0.0 || ask.tension > 0.0) {
+            let text = "errors of places and tension count in the first search; the one by results of the method takes places and tension to be \
+                        exact";
+            notes.push(Note { topic: "errors", text: text.into() });
         }
         notes.extend(of_targets(&conditions(&self.surface), self.held_out));
         notes

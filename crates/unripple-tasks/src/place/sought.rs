@@ -4,6 +4,7 @@ use super::Ask;
 use super::placed::{Best, More};
 use super::refused::refused;
 use crate::{Progress, TaskError, go_on};
+use std::collections::HashSet;
 use unripple_placement::{Chosen, Found, Objective, PlacementError, Search};
 
 /// Random layouts that those that were found are compared with.
@@ -22,6 +23,8 @@ pub(super) struct Sought {
     pub reached: Vec<f64>,
     /// What is known of how good a layout can be.
     pub certificate: Best,
+    /// The layouts from all beginnings, and the best of all if it is known.
+    found: Vec<Found>,
     /// The objective of the best layout with one more actuator, for each actuator of the forms.
     with_each: Vec<f64>,
 }
@@ -43,7 +46,27 @@ impl Sought {
             starts.iter().fold(&starts[0], |best, found| if found.score > best.score { found } else { best });
         let best = best.clone();
         let with_each = Chosen::new(search.forms, best.actuators.clone()).with_each(search.objective);
-        Ok(Self { each, best, reached, certificate, with_each })
+        Ok(Self { each, best, reached, certificate, found: starts, with_each })
+    }
+
+    /// The best of the layouts from all beginnings, at most so many, the best one first and each once.
+    pub fn leading(&self, most: usize) -> Vec<Vec<usize>> {
+        let mut found: Vec<&Found> = self.found.iter().collect();
+        found.sort_by(|a, b| b.score.total_cmp(&a.score));
+        let mut seen = HashSet::new();
+        let is_new = |found: &&Found| {
+            let mut set = found.actuators.clone();
+            set.sort_unstable();
+            seen.insert(set)
+        };
+        found.into_iter().filter(is_new).take(most).map(|found| found.actuators.clone()).collect()
+    }
+
+    /// Takes another layout for the best one, as a search by another objective found it.
+    pub fn choose(&mut self, search: &Search<'_>, actuators: Vec<usize>) {
+        let chosen = Chosen::new(search.forms, actuators);
+        self.with_each = chosen.with_each(search.objective);
+        self.best = Found { score: chosen.score(search.objective), actuators: chosen.actuators().to_vec() };
     }
 
     /// Index of the free actuator of the forms that would be the best one more; `None` if none is free.

@@ -1,7 +1,7 @@
 //! The report of the task `place` as text.
 
-use super::Report;
 use super::placed::Layout;
+use super::{Report, Second};
 use crate::thinned::thinned;
 use std::fmt::Write;
 
@@ -46,12 +46,18 @@ fn of(report: &Report) -> String {
         Some(told) => format!("chosen{kept}, among {} of a library ({told})", report.places),
         None => format!("placed{kept}, chosen among {} places{pitch}", report.places),
     };
+    let aim = match &report.second_search {
+        None => format!("{} of time reversal", report.objective),
+        Some(second) => {
+            let Second { objective, method, .. } = second;
+            format!("{objective} of {method}, from layouts for the {} of time reversal", report.objective)
+        }
+    };
     let _ = writeln!(
         text,
-        "{}: {} actuators {chosen}, for the {} of time reversal (window {:.1} ms) at {} targets; evaluated on {}{others}.\n",
+        "{}: {} actuators {chosen}, for the {aim} (window {:.1} ms) at {} targets; evaluated on {}{others}.\n",
         report.surface,
         report.count,
-        report.objective,
         1e3 * report.window_s,
         report.placed_for,
         report.evaluated_on,
@@ -63,6 +69,7 @@ fn of(report: &Report) -> String {
     }
     layouts(&mut text, report);
     search(&mut text, report);
+    second(&mut text, report);
     numbers(&mut text, report);
     methods(&mut text, report);
     for note in &report.notes {
@@ -115,13 +122,15 @@ fn layouts(text: &mut String, report: &Report) {
 fn search(text: &mut String, report: &Report) {
     let restarts = &report.restarts;
     let least = restarts.reached.iter().copied().fold(f64::INFINITY, f64::min);
-    let polished = match report.judged_on {
-        Some(_) => String::new(),
-        None => format!(" on the grid, the final layout {:.2} off the grid", restarts.polished),
+    let polished = match (&report.judged_on, &report.second_search) {
+        (Some(_), _) => String::new(),
+        (None, None) => format!(" on the grid, the final layout {:.2} off the grid", restarts.polished),
+        (None, Some(_)) => format!(" on the grid, and {:.2} off it", restarts.polished),
     };
+    let which = if report.second_search.is_some() { "search for time reversal" } else { "search" };
     let _ = writeln!(
         text,
-        "search: {} starting layouts reached {least:.2} to {:.2}{polished}; certificate: {}",
+        "{which}: {} starting layouts reached {least:.2} to {:.2}{polished}; certificate: {}",
         restarts.reached.len(),
         restarts.best,
         report.certificate.certificate
@@ -132,6 +141,34 @@ fn search(text: &mut String, report: &Report) {
         let _ =
             writeln!(text, "one more actuator: best {name}at {x:.1}, {y:.1} mm, with {:.2}", more.objective);
     }
+}
+
+/// What a second search found, beside the layout with which it began.
+fn second(text: &mut String, report: &Report) {
+    let Some(second) = &report.second_search else { return };
+    let Second { method, objective, layouts, most_layouts, searched, evaluated, .. } = second;
+    let number = |value: f64| match second.by {
+        _ if !value.is_finite() => "-".to_owned(),
+        "energy_for_peak" => format!("{value:.3e}"),
+        _ => format!("{value:.2}"),
+    };
+    let others = if report.held_out { "others" } else { "targets, in full" };
+    let _ = writeln!(
+        text,
+        "\n{objective} of {method}\n{:<24} {:>3} searched on {:>5} {others}",
+        "", searched.targets, evaluated.targets
+    );
+    for (name, on, then) in [
+        ("best for time reversal", searched.time_reversal, evaluated.time_reversal),
+        ("found", searched.found, evaluated.found),
+    ] {
+        let _ = writeln!(text, "{name:<24} {:>15} {:>12}", number(on), number(then));
+    }
+    let _ = writeln!(
+        text,
+        "search by it: {layouts} layouts of at most {most_layouts} evaluated; {}",
+        second.certificate()
+    );
 }
 
 /// The contrast of every number of actuators, or of some where there are many.
