@@ -61,8 +61,9 @@ impl<F> Scores<F> {
 }
 
 impl Search<'_> {
-    /// The layout with the largest `score`, of those that are found by exchange from the best of the layouts `starts`, then from the others,
-    /// as long as evaluations are left; `None` without starts or evaluations. Scores are evaluated one after the other, each layout once.
+    /// The layout with the largest `score`, a number in any unit, of those that are found by exchange from the best of the layouts `starts`,
+    /// then from the others, as long as evaluations are left; `None` without starts or evaluations. Layouts are evaluated one after the
+    /// other, each once.
     ///
     /// To move an actuator, places are tried in turn by the objective of the search and at random: that objective may tell little of the
     /// scores.

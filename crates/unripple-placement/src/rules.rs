@@ -7,8 +7,8 @@ use unripple_core::{Outline, Patch, Point, require};
 /// Largest number of cells of a grid of places. With twice this value, a search would take a GiB for every ten targets.
 const MOST_CELLS: f64 = 4e6;
 
-/// Where actuators may be: within a range of distances from the rim, inside some areas, outside others. Distances from the rim and the areas
-/// inside which they must be are those of their centres; from other areas and beyond the sheet the whole of their footprint is kept.
+/// Where actuators may be: within a range of distances from the rim, inside some areas, outside others. Distances from the rim, and the
+/// areas inside, are those of their centres; outside other areas, and on the sheet, is the whole of their footprint.
 ///
 /// ```
 /// use unripple_core::{Outline, Point, Shape};

@@ -8,8 +8,8 @@ use unripple_core::Point;
 /// The first line of a table.
 const COLUMNS: [&str; 3] = ["x_mm", "y_mm", "weight"];
 
-/// Reads a table of weights: a line `x_mm,y_mm,weight`, then one for each point. Empty lines, and lines that begin with `#`, are passed over.
-/// Places are given in m, with their weights, which are pure numbers.
+/// Reads a table of weights: a line `x_mm,y_mm,weight`, then one for each point. Empty lines, and lines that begin with `#`, are passed
+/// over. Places are given in m, with their weights, which are pure numbers.
 ///
 /// # Errors
 /// [`StoreError::Read`]; [`StoreError::Content`] of other columns, of what is no finite number, of a weight below 0, of a table without a

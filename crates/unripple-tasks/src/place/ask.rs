@@ -75,8 +75,8 @@ pub struct Ask {
     /// Methods of focusing whose drives are evaluated before and after. With `by`, the layout is optimised for drives of the first one.
     #[serde(with = "names::methods")]
     pub methods: Vec<Method>,
-    /// A figure of the drives of the first of `methods` (or of time reversal) by which layouts are compared in a second search, which begins
-    /// with the best ones for the contrast of time reversal; by default there is none.
+    /// A figure of the drives of the first of `methods` (or of time reversal) by which layouts are compared in a second search, which
+    /// begins with the best ones for the contrast of time reversal; by default there is none.
     pub by: Option<ByAsk>,
     /// Largest number of layouts whose drives are computed and evaluated in that search; by default 6, and 8 for each actuator that is
     /// placed, up to 200.

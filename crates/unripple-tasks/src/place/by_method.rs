@@ -1,14 +1,12 @@
 //! Drives of focusing methods, evaluated before and after actuators were placed.
 
+use super::budget::JUDGED;
 use super::setting::Setting;
 use crate::{Progress, Solved, TaskError, go_on, judge};
 use serde::Serialize;
 use unripple::act::{Act, Level, Readouts};
 use unripple::core::{Point, Surface};
 use unripple::focus::{Method, Options, Target};
-
-/// Number of targets on which drives are computed. With twice as many, this takes twice the time, which is most of the task's.
-pub(super) const TARGETS: usize = 6;
 
 /// Metrics of the drives of one focusing method, averaged over some targets and simulated on modes up to twice
 /// the top of the band.
@@ -48,7 +46,7 @@ pub(super) fn each(
     if methods.is_empty() {
         return Ok(Vec::new());
     }
-    let at: Vec<Point> = setting.tested.iter().take(TARGETS).map(|aim| aim.at).collect();
+    let at: Vec<Point> = setting.tested.iter().take(JUDGED).map(|aim| aim.at).collect();
     let own = &setting.surface;
     let before = match own.actuators.is_empty() {
         true => None,

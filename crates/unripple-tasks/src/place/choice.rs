@@ -99,8 +99,8 @@ impl Choice {
     }
 }
 
-/// Indices of the actuators that move the surface, the kept ones first, then those to choose from; the number of both. `mounted` are those of
-/// the surface, whose footprints count; of others the places alone do.
+/// Indices of the actuators that move the surface, the kept ones first, then those to choose from; the number of both. `mounted` are those
+/// of the surface, whose footprints count; of others the places alone do.
 fn actuators(
     ask: &Ask,
     responses: &SampledResponses,

@@ -1,7 +1,8 @@
 //! What a search for places costs, before anything is solved.
 
+use super::Ask;
 use super::ask::TESTED;
-use super::{Ask, second};
+use super::budget::{JUDGED, SEARCHED, most};
 use crate::Progress;
 use crate::cost;
 use unripple::act::{ActError, judging_cost, model_cost};
@@ -47,7 +48,7 @@ fn second_search(ask: &Ask, kept: &Surface, kind: &Actuator, places: &[Point]) -
     let mut surface = kept.clone();
     let put = |(i, at): (usize, &Point)| Actuator { name: format!("place {i}"), at: *at, ..kind.clone() };
     surface.actuators.extend(places.iter().take(ask.count).enumerate().map(put));
-    let drives = second::most(ask) * second::SEARCHED / THINNED + 2 * second::EVALUATED;
+    let drives = most(ask) * SEARCHED / THINNED + 2 * JUDGED;
     judging_cost(&surface, None, &[], ask.window_s, drives)
 }
 

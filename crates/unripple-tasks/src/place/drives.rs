@@ -1,5 +1,5 @@
-//! What drives of a method reach from a layout, as a score by which layouts are compared: computed and evaluated as `focus` does, with the loads
-//! of all actuators.
+//! What drives of a method reach from a layout, as a score by which layouts are compared: computed and evaluated as `focus` does, with the
+//! loads of all actuators.
 
 use super::{Ask, ByAsk};
 use crate::{Progress, TaskError, go_on};
@@ -32,7 +32,7 @@ impl ByAsk {
         }
     }
 
-    /// The figure as a score, of which more is better, and the score as a figure.
+    /// The figure as a score in the same unit, of which more is better, and the score as a figure.
     pub(super) fn turned(self, value: f64) -> f64 {
         if self == Self::EnergyForPeak { -value } else { value }
     }

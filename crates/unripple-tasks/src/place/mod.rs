@@ -1,6 +1,7 @@
 //! `place`: finds where actuators should be, or which of a library's to keep, and how many of them there should be.
 
 mod ask;
+mod budget;
 mod by_method;
 mod choice;
 mod cost;

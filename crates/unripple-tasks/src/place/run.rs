@@ -1,5 +1,6 @@
 //! Finds places for actuators, and evaluates the layout.
 
+use super::budget::STARTS;
 use super::figure::Drawn;
 use super::outcome::Outcome;
 use super::placed::{Build, Layout, Number, Placed, Random, Restarts};
@@ -109,8 +110,8 @@ fn found(
     Ok((report, built, drawn))
 }
 
-/// The places of the final layout, the contrast of time reversal with actuators off the grid, and what a second search found. The best layout
-/// on the grid is then the one that this search chose.
+/// The places of the final layout, the contrast of time reversal with actuators off the grid, and what a second search found, which may
+/// choose another best layout on the grid.
 fn settled(
     ask: &Ask,
     setting: &Setting,
@@ -127,7 +128,7 @@ fn settled(
     };
     let Some(by) = ask.by else { return Ok((places, polished, None)) };
     go_on(progress)?;
-    let starts = sought.leading(second::STARTS);
+    let starts = sought.leading(STARTS);
     let found = second::searched(ask, by, setting, (search, &starts), &places, progress)?;
     if let Some(chosen) = found.chosen {
         sought.choose(search, chosen);

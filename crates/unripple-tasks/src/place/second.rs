@@ -1,29 +1,15 @@
 //! The second search: layouts compared by what drives of a method reach from them, beginning with the best ones for the contrast of time
 //! reversal.
 
+use super::budget::{JUDGED, SEARCHED, most};
 use super::drives::{Drives, method};
 use super::setting::Setting;
-use super::{Ask, ByAsk, by_method};
+use super::{Ask, ByAsk};
 use crate::window::conditions;
 use crate::{Progress, TaskError};
 use serde::Serialize;
 use unripple::core::Point;
 use unripple_placement::{Aim, Objective, Refining, Search};
-
-/// Number of targets to which drives are computed from each layout. With twice as many, the search takes twice the time.
-pub(super) const SEARCHED: usize = 4;
-
-/// Number of targets on which the layouts of both searches are compared at the end.
-pub(super) const EVALUATED: usize = by_method::TARGETS;
-
-/// Largest number of layouts for time reversal with which the search begins.
-pub(super) const STARTS: usize = 6;
-
-/// Layouts that are evaluated by default, for each actuator that is placed.
-const MOVES: usize = 8;
-
-/// Largest number of layouts that are evaluated by default: more have to be asked for.
-const MOST: usize = 200;
 
 /// Distance between places that are tried first for an actuator, over the shortest wavelength: nearer ones drive the modes alike.
 const SPACING: f64 = 0.5;
@@ -68,11 +54,6 @@ pub(super) struct Found {
     pub chosen: Option<Vec<usize>>,
     /// What is reported of the search.
     pub second: Second,
-}
-
-/// The number of layouts whose drives may be evaluated.
-pub(super) fn most(ask: &Ask) -> usize {
-    ask.evaluations.unwrap_or((STARTS + MOVES * ask.count).min(MOST))
 }
 
 /// Searches for a layout by what drives reach, from the layouts `starts` of the search for time reversal and the final layout of that
@@ -133,7 +114,7 @@ fn evaluated(
     progress: &mut dyn Progress,
 ) -> Result<(usize, [f64; 2]), TaskError> {
     progress.stage("evaluation of both layouts");
-    let aims = leading(setting, &setting.tested, EVALUATED);
+    let aims = leading(setting, &setting.tested, JUDGED);
     let score = |places: &[Point]| drives.score(&setting.built(places), &aims, false, &*progress);
     let before = score(proposed)?;
     let after = if found == proposed { before } else { score(found)? };

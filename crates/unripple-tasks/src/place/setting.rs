@@ -117,8 +117,8 @@ impl Setting {
             notes.push(Note { topic: "loads", text: format!("{text}{second}") });
         }
         if ask.by.is_some() && (ask.mounting_m > 0.0 || ask.tension > 0.0) {
-            let text = "errors of places and tension count in the first search; the one by results of the method takes places and tension to be \
-                        exact";
+            let text = "errors of places and tension count in the first search; the one by results of the method takes places and tension \
+                        to be exact";
             notes.push(Note { topic: "errors", text: text.into() });
         }
         notes.extend(of_targets(&conditions(&self.surface), self.held_out));
@@ -301,8 +301,8 @@ fn targets(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(Vec<Aim>, V
     let rules = target_rules(ask, lambda_min);
     let mut trained = importance.spread(outline, &rules, (1 + TESTED) * ask.targets);
     if trained.len() < (1 + TESTED) * ask.targets {
-        let found = "hardly any: the surface is small compared with its shortest wavelength, or the areas lie beyond it, or nothing in them \
-                     has a weight";
+        let found = "hardly any: the surface is small compared with its shortest wavelength, or the areas lie beyond it, or nothing in \
+                     them has a weight";
         return Err(TaskError::ask("points_m, targets_within_m", "room for targets on the surface", found));
     }
     let tested = trained.split_off(ask.targets);

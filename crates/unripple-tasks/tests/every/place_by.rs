@@ -1,5 +1,5 @@
-//! Places that are searched for by what drives of a method reach: the layout is the best of all where all can be computed, no layout is worse
-//! than the one for time reversal, and the search ends when it is told to.
+//! Places that are searched for by what drives of a method reach: the layout is the best of all where all can be computed, none is worse than
+//! the one for time reversal, and the search ends when it is told to.
 
 use std::collections::BTreeSet;
 use unripple::act::{Act, Judging, Level, Readouts, model};

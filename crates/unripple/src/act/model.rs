@@ -51,8 +51,8 @@ pub fn model_modes(surface: &Surface, max_hz: Option<f64>) -> Result<Modes, ActE
     Ok(response_modes(surface, &options(surface, max_hz))?)
 }
 
-/// The responses of [`model`] without fingers, from modes that [`model_modes`] has computed for the same frequency and for the same surface, or
-/// for one whose actuators are at other places.
+/// The responses of [`model`] without fingers, from modes that [`model_modes`] has computed up to the same frequency (Hz), for the same
+/// surface or for one whose actuators are at other places.
 ///
 /// # Errors
 /// Those of [`model`].

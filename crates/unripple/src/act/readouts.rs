@@ -36,7 +36,8 @@ impl<'a> Readouts<'a> {
         Self::with_cells(responses, CELLS)
     }
 
-    /// Readouts whose grid for metrics has half as many cells along each side: for searches that compare many drives, in a fourth of the time.
+    /// Readouts whose grid for metrics has half as many cells along each side: for searches that compare many drives, in a fourth of the
+    /// time.
     pub fn thinned(responses: &'a Responses) -> Self {
         Self::with_cells(responses, COARSE)
     }
