@@ -225,8 +225,12 @@ def important(name: str, value: object) -> list[dict[str, Any]]:
 def _important(name: str, item: object) -> dict[str, Any]:
     if isinstance(item, Mapping):
         return {str(key): plain(name, part) for key, part in item.items()}
-    parts = item.rpartition(":")[::2] if isinstance(item, str) else many(name, item)
-    if len(parts) != 2 or isinstance(item, str) and ":" not in item:
+    if isinstance(item, str):
+        typed, colon, number_typed = item.rpartition(":")
+        parts: list[Any] = [typed, number_typed] if colon else []
+    else:
+        parts = many(name, item)
+    if len(parts) != 2:
         raise AskError(field=name, expected=_WEIGHTED, found=shown(item))
     corners, weight = parts
     return {"area_m": _polygon(name, corners), "weight": _parsed(name, weight, _WEIGHTED)}

@@ -213,7 +213,8 @@ fn layouts_can_be_compared_by_what_drives_of_a_method_reach() {
     let targets = ["--count", "2", "--at", "62,90", "--at", "90,40,2", "--window-ms", "15"];
     let report = json(&[&FILM[..], &targets, &places, &drives].concat());
     let second = &report["second_search"];
-    assert_eq!((&second["method"], &second["by"]), (&"inverse".into(), &"felt_contrast_db".into()));
+    assert_eq!(second["method"], "inverse");
+    assert_eq!(second["by"], "felt_contrast_db");
     assert_eq!(second["objective"], "mean felt contrast (dB)");
     assert!(number(second, "/layouts") <= 5.0 && number(second, "/most_layouts") == 5.0, "{second}");
     let [before, found] = ["time_reversal", "found"].map(|key| number(second, &format!("/searched/{key}")));

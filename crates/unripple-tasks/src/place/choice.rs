@@ -242,7 +242,7 @@ fn window(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use unripple::core::{Conditions, Outline, Port, Shape};
+    use unripple::core::{ActuatorKind, Conditions, Outline, Port, Shape};
 
     /// Responses of `alive` actuators, and of a dead one before them, on a grid of points 10 mm apart.
     fn responses(alive: usize) -> SampledResponses {
@@ -277,6 +277,22 @@ mod tests {
         assert_eq!(actuators(&ask, &responses(4), &[]).unwrap(), (vec![2, 3, 4, 1], 0, 3));
         let all = Ask { count: 1, keep_all: true, ..Ask::default() };
         assert!(actuators(&all, &responses(4), &[]).is_err());
+    }
+
+    #[test]
+    fn actuators_that_reach_into_an_area_are_left_out() {
+        let responses = responses(4);
+        let left = vec![vec![[0.0, 0.0], [0.055, 0.0], [0.055, 0.1], [0.0, 0.1]]];
+        let ask = Ask { count: 1, keep_out_m: left, ..Ask::default() };
+        let disc = |port: &Port| Actuator {
+            name: port.name.clone(),
+            at: port.at,
+            kind: ActuatorKind::Force,
+            contact_radius: 0.02,
+        };
+        // The one at 70 mm begins at 50 mm, and none need be clear of the rim at 10 mm.
+        let mounted: Vec<Actuator> = responses.ports.iter().map(disc).collect();
+        assert_eq!(actuators(&ask, &responses, &mounted).unwrap(), (vec![3, 4, 1, 2], 0, 2));
     }
 
     #[test]

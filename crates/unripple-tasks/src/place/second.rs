@@ -40,6 +40,8 @@ pub struct Second {
     pub most_layouts: usize,
     /// Whether all moves of one actuator from the best layout on the places were evaluated, and none was better.
     pub settled: bool,
+    /// What is known of how good the layout can be, in words.
+    pub certificate: &'static str,
     /// The objective on the targets of the search, with fields read at a fourth of the points.
     pub searched: Compared,
     /// The objective on evaluation targets, with fields read at all points.
@@ -100,6 +102,7 @@ pub(super) fn searched(
         layouts,
         most_layouts: most,
         settled,
+        certificate: certificate(settled),
         searched: Compared::of(by, aims.len(), [before, after]),
         evaluated: Compared::of(by, evaluated.0, evaluated.1),
     };
@@ -150,14 +153,12 @@ fn objective_name(objective: Objective, by: ByAsk) -> String {
     }
 }
 
-impl Second {
-    /// What is known of how good the layout can be, in words.
-    pub(super) fn certificate(&self) -> &'static str {
-        match self.settled {
-            true => {
-                "no move of one actuator from the best layout on the places is better, but another layout may be: the search is local"
-            }
-            false => "their number ended the search, which is local: more may find a better layout",
+/// What is known of how good the layout can be, in words, by whether the search settled.
+fn certificate(settled: bool) -> &'static str {
+    match settled {
+        true => {
+            "no move of one actuator from the best layout on the places is better, but another layout may be: the search is local"
         }
+        false => "their number ended the search, which is local: more may find a better layout",
     }
 }
