@@ -98,6 +98,14 @@ fn asks_go_through_json() {
         ..waveform::Ask::default()
     });
     through_json(&stroke::Ask::default());
+    through_json(&place::Ask {
+        importance: Some("map.csv".into()),
+        important: vec![place::ImportantAsk { area_m: vec![[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]], weight: 2.0 }],
+        methods: vec![unripple::focus::Method::Inverse],
+        by: Some(place::ByAsk::FeltContrast),
+        evaluations: Some(30),
+        ..place::Ask::default()
+    });
     through_json(&optimise::Ask { no_ask: true, ..optimise::Ask::default() });
     through_json(&sweep::Ask { shard: Some(3), output: Some("out".into()), ..sweep::Ask::default() });
 }

@@ -129,7 +129,7 @@ fn settled(
     let Some(by) = ask.by else { return Ok((places, polished, None)) };
     go_on(progress)?;
     let starts = sought.leading(STARTS);
-    let found = second::searched(ask, by, setting, (search, &starts), &places, progress)?;
+    let found = second::searched(ask, by, setting, (search, starts.as_slice()), &places, progress)?;
     if let Some(chosen) = found.chosen {
         sought.choose(search, chosen);
     }

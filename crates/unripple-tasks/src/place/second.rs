@@ -94,7 +94,7 @@ pub(super) fn searched(
         Some(found) if found.score >= before => (at(&found.actuators), Some(found.actuators), found.score),
         _ => (proposed.to_vec(), None, before),
     };
-    let evaluated = evaluated(setting, &drives, [proposed, &places], progress)?;
+    let evaluated = evaluated(setting, &drives, [proposed, places.as_slice()], progress)?;
     let second = Second {
         method,
         by: by.key(),
