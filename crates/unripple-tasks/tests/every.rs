@@ -100,7 +100,10 @@ fn asks_go_through_json() {
     through_json(&stroke::Ask::default());
     through_json(&place::Ask {
         importance: Some("map.csv".into()),
-        important: vec![place::ImportantAsk { area_m: vec![[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]], weight: 2.0 }],
+        important: vec![place::ImportantAsk {
+            area_m: vec![[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]],
+            weight: 2.0,
+        }],
         methods: vec![unripple::focus::Method::Inverse],
         by: Some(place::ByAsk::FeltContrast),
         evaluations: Some(30),
