@@ -81,7 +81,7 @@ fn layouts_without_a_score_are_left_and_errors_end_the_search() {
     });
     let found = found.unwrap().unwrap();
     assert!(found.actuators.contains(&0) && found.score == 2.0 && found.settled, "{found:?}");
-    let mut count = 0;
+    let mut count: i32 = 0;
     let failed = search.refined(&start, &REFINING, |_| {
         count += 1;
         if count < 4 { Ok(f64::from(count)) } else { Err("cancelled") }
