@@ -73,7 +73,7 @@ pub use pole::{Onset, Pole};
 pub use random::Random;
 pub use range::{OutOfRange, require};
 pub use responses::{
-    Conditions, FOCAL_RADIUS, Mixture, ModalResponses, Port, Responses, SampledResponses, Shapes,
+    Conditions, FOCAL_RADIUS, Mixture, ModalResponses, ModeError, Port, Responses, SampledResponses, Shapes,
 };
 pub use shape::Shape;
 pub use side::Side;

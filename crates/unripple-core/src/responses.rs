@@ -158,6 +158,20 @@ pub struct ModalResponses {
     /// Upper bound of the relative error of the sheet's computed natural frequencies; 0 if they are exact,
     /// or were not computed but fitted to measurements.
     pub frequency_error: f64,
+    /// Bounds of the errors of each mode, as many as there are poles; empty where they are not known, as where loads change the modes.
+    pub mode_errors: Vec<ModeError>,
+}
+
+/// Upper bounds of the relative errors of one computed mode; 0 where there are rounding errors alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ModeError {
+    /// That of the natural frequency.
+    pub frequency: f64,
+    /// That of the decay time; `None` where no bound is known.
+    pub decay: Option<f64>,
+    /// That of the shape, root mean square over the sheet. What neighbouring modes exchange counts as errors of their frequencies, since
+    /// as much of it is seen in a response as these have drifted apart.
+    pub shape: f64,
 }
 
 /// Sampled impulse responses at fixed points, as float32 values in m/s per unit impulse, stored as `[point][actuator][sample]`. Clones

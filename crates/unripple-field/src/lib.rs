@@ -34,6 +34,7 @@
 //!     shapes: Arc::new(Piston),
 //!     conditions: Conditions { rate: 1000.0, band: [0.0, 100.0], lambda_min: 0.03, outline },
 //!     frequency_error: 0.0,
+//!     mode_errors: Vec::new(),
 //! });
 //! let push = Drive::new(1000.0, vec!["a1".into()], vec![vec![2.0; 11]])?;
 //! let aim = Aim::at(Point::new(0.05, 0.05), 0.010);

@@ -36,6 +36,7 @@
 //!     shapes: Arc::new(String2),
 //!     conditions: Conditions { rate: 8000.0, band: [0.0, 200.0], lambda_min: 1.0, outline },
 //!     frequency_error: 0.0,
+//!     mode_errors: Vec::new(),
 //! });
 //! let focused = focus(&string, &[Target::at(Point::new(0.6, 0.05))], &Options { window: 0.02, ..Options::default() })?;
 //! assert_eq!(focused.drive.samples(), 161);

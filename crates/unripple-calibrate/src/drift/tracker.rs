@@ -53,6 +53,7 @@ const GUESS: f64 = 1e-3;
 ///     shapes: Arc::new(Piston),
 ///     conditions: Conditions { rate: 8000.0, band: [0.0, 300.0], lambda_min: 0.03, outline },
 ///     frequency_error: 0.0,
+///     mode_errors: Vec::new(),
 /// };
 /// let mut tracker = Tracker::new(&drum, &[0.0], &Tracking { noise: 1e-6, ..Tracking::default() })?;
 /// let stiffer = Pole::new(1000.0 * 1.002f64.sqrt(), 10.0);

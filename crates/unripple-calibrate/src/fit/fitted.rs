@@ -189,6 +189,7 @@ impl Answers<'_> {
                     outline: nominal.outline.clone(),
                 },
                 frequency_error: 0.0,
+                mode_errors: Vec::new(),
             },
             bending_shares: modes.bending_shares,
         })

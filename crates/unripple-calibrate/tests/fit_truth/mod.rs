@@ -246,6 +246,7 @@ fn modal(surface: &Surface, modes: &Arc<Modes>) -> ModalResponses {
             outline: surface.outline.clone(),
         },
         frequency_error: 0.0,
+        mode_errors: Vec::new(),
     }
 }
 

@@ -245,6 +245,7 @@ fn modal_of(plant: &Responses, surface: &Surface) -> ModalResponses {
         shapes: Arc::new(Kept { shapes: plant.shapes.clone(), kept }),
         conditions: plant.conditions.clone(),
         frequency_error: plant.frequency_error,
+        mode_errors: Vec::new(),
     }
 }
 

@@ -106,6 +106,7 @@ impl Film {
                 outline,
             },
             frequency_error: 0.0,
+            mode_errors: Vec::new(),
         }
     }
 

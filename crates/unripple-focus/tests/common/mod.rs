@@ -89,6 +89,7 @@ impl Membrane {
                 outline,
             },
             frequency_error: 0.0,
+            mode_errors: Vec::new(),
         }
     }
 

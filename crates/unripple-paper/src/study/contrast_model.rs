@@ -139,6 +139,7 @@ impl ContrastModel {
             shapes: Arc::new(Leading { shapes: self.shapes.clone(), modes: self.modes() }),
             conditions: self.conditions.clone(),
             frequency_error: 0.0,
+            mode_errors: Vec::new(),
         })
     }
 

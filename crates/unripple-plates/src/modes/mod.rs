@@ -8,14 +8,15 @@ mod found;
 mod general;
 mod jacobi;
 mod legendre;
+pub(crate) mod losses;
 mod rectangle;
 mod ritz;
 
 use crate::{Accuracy, PhysicsError};
 use bounds::Bounds;
-use found::Found;
+use found::{Errors, Found};
 use std::f64::consts::TAU;
-use unripple_core::{Cost, Point, Pole, Shapes, Surface};
+use unripple_core::{Cost, ModeError, Point, Pole, Shapes, Surface};
 use unripple_linalg::Mat;
 
 pub use legendre::gauss;
@@ -33,6 +34,7 @@ pub struct Modes {
     bending_shares: Vec<f64>,
     shapes: Box<dyn Shapes>,
     error: f64,
+    errors: Vec<ModeError>,
 }
 
 impl Modes {
@@ -96,13 +98,18 @@ impl Modes {
             Some(found) => found,
             None => general::solve(surface, &bounds)?,
         };
-        let poles = found
-            .omegas
-            .iter()
-            .zip(&found.bending_shares)
-            .map(|(omega, share)| Pole::new(*omega, bounds.decay_rate(&surface.sheet.decay, *omega, *share)))
-            .collect();
-        Ok(Self { poles, bending_shares: found.bending_shares, shapes: found.shapes, error: found.error })
+        let decay = &surface.sheet.decay;
+        let Found { omegas, bending_shares, shapes, error, errors } = found;
+        let modes = || omegas.iter().zip(&bending_shares);
+        let pole = |(omega, share): (&f64, &f64)| Pole::new(*omega, bounds.decay_rate(decay, *omega, *share));
+        let stated = |((omega, share), errors): ((&f64, &f64), &Errors)| ModeError {
+            frequency: errors.frequency,
+            decay: bounds.decay_error(decay, *omega, *share, errors),
+            shape: errors.shape,
+        };
+        let poles = modes().map(pole).collect();
+        let errors = modes().zip(&errors).map(stated).collect();
+        Ok(Self { poles, bending_shares, shapes, error, errors })
     }
 
     /// What [`Modes::solve`] will cost, before any mesh is made or problem solved; an estimate, mostly within a factor of two.
@@ -179,6 +186,31 @@ impl Modes {
     /// frequencies are known by another method.
     pub fn error(&self) -> f64 {
         self.error
+    }
+
+    /// Upper bounds of the relative errors of each mode, one for each pole.
+    ///
+    /// That of a decay time follows from those of the frequency and of the share of bending, and, with a loss factor η, from what it changes to
+    /// second order: decay times are those of modes without loss, and loss couples modes where bending and tension or springs share the sheet.
+    ///
+    /// ```
+    /// # use unripple_core::*;
+    /// # use unripple_plates::Modes;
+    /// # let sheet = Sheet { material: "glass".into(), young: 70e9, density: 2500.0, poisson: 0.22, strength: None,
+    /// #     thickness: 1e-3, tension: 0.0, decay: Decay::LossFactor(0.02), air: Air::None,
+    /// #     uneven: Uneven::default() };
+    /// # let outline = Outline::new(Shape::Rectangle { width: 0.3, height: 0.2 }).with_edges(Edges::All(Edge::Supported));
+    /// # let pane = Surface { name: "pane".into(), outline,
+    /// #     sheet, emission: Emission { band: [0.0, 3e3], rate: 48e3, limit: 1.0, rms_limit: None },
+    /// #     finger: Finger::default(), accuracy: None, actuators: vec![] };
+    /// // Exact modes: all that is left is η²/8.
+    /// let first = Modes::solve(&pane, 1000.0, 1e-6)?.errors()[0];
+    /// assert_eq!(first.frequency, 0.0);
+    /// assert!(first.decay.is_some_and(|error| (error / (0.02_f64.powi(2) / 8.0) - 1.0).abs() < 0.01));
+    /// # Ok::<(), unripple_plates::PhysicsError>(())
+    /// ```
+    pub fn errors(&self) -> &[ModeError] {
+        &self.errors
     }
 }
 

@@ -62,10 +62,13 @@ impl Energy {
         product(rest.transpose(), rest, Par::Seq)
     }
 
-    /// Twice the energy in bending per mass of each of several deflections, functions x deflections, in 1/s².
-    pub(super) fn of_bending(&self, deflections: MatRef<f64>) -> Vec<f64> {
+    /// Twice the energy in bending per mass between several deflections, functions x deflections, in 1/s²: deflections x deflections.
+    pub(super) fn of_bending(&self, deflections: MatRef<f64>) -> Mat<f64> {
+        if self.bending == 0 {
+            return Mat::zeros(deflections.ncols(), deflections.ncols());
+        }
         let parts = product(self.squares.as_ref().subrows(0, self.bending), deflections, Par::Seq);
-        parts.col_iter().map(|column| column.iter().map(|x| x * x).sum()).collect()
+        product(parts.transpose(), parts.as_ref(), Par::Seq)
     }
 
     /// A bound of the relative error that rounding leaves in the squared frequencies `squares` (1/s²) of modes, functions (without the first

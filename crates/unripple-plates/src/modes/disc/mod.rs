@@ -6,7 +6,7 @@ mod problem;
 mod radial;
 mod shapes;
 
-use super::found::Found;
+use super::found::{Errors, Found};
 use crate::PhysicsError;
 use order::OrderModes;
 use rayon::prelude::*;
@@ -53,11 +53,19 @@ pub(super) fn solve(problem: &Problem) -> Result<Found, PhysicsError> {
     let square = |(n, m, _): &Place| orders[*n].squares[*m];
     let omegas = places.iter().map(|place| problem.bounds.loaded(square(place)).0).collect();
     let bending_shares = places.iter().map(|(n, m, _)| orders[*n].bending_shares[*m]).collect();
+    let of = |(n, m, _): &Place| {
+        let order = &orders[*n];
+        match order.squares[*m] > 0.0 {
+            true => Errors::of_ritz(order.error(), order.bending_shares[*m], order.second[*m]),
+            false => Errors::default(),
+        }
+    };
+    let errors = places.iter().map(of).collect();
     let factor = |square: &f64| problem.bounds.loaded(*square).1;
     let factors: Vec<Vec<f64>> =
         orders.iter().map(|order| order.squares.iter().map(factor).collect()).collect();
     let shapes = Box::new(Round::new(problem, orders, &places, &factors));
-    Ok(Found { omegas, bending_shares, shapes, error })
+    Ok(Found { omegas, bending_shares, shapes, error, errors })
 }
 
 /// All modes in order of ascending frequency: each but those of order 0 as cosine and as sine.

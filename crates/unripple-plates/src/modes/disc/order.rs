@@ -1,5 +1,6 @@
 //! The modes of one angular order.
 
+use super::super::losses;
 use super::super::ritz::{lowest, missing};
 use super::energy::Energy;
 use super::problem::Problem;
@@ -16,6 +17,8 @@ pub(super) struct OrderModes {
     /// ω², ascending, in 1/s²; rigid-body modes first, at 0.
     pub(super) squares: Vec<f64>,
     pub(super) bending_shares: Vec<f64>,
+    /// What a loss factor changes to second order, of each mode; see [`losses::second`].
+    pub(super) second: Vec<f64>,
     /// Coefficients, functions x modes, with orthonormal columns.
     pub(super) coefficients: Mat<f64>,
     /// Largest relative error of a frequency for want of further functions, estimated.
@@ -69,10 +72,13 @@ impl OrderModes {
         let squares: Vec<f64> =
             std::iter::repeat_n(0.0, rigid).chain(squares[..inside].iter().copied()).collect();
         let bent = energy.of_bending(coefficients.as_ref());
-        let share =
-            |(square, bent): (&f64, &f64)| if *square > 0.0 { (bent / square).clamp(0.0, 1.0) } else { 0.0 };
-        let bending_shares = squares.iter().zip(&bent).map(share).collect();
-        Some(Self { radial, squares, bending_shares, coefficients, missing, rounded })
+        let share = |(m, square): (usize, &f64)| {
+            if *square > 0.0 { (bent[(m, m)] / square).clamp(0.0, 1.0) } else { 0.0 }
+        };
+        let bending_shares = squares.iter().enumerate().map(share).collect();
+        let far = losses::far(&[problem.edge], true);
+        let second = losses::second(&squares, bent.as_ref(), far, f64::INFINITY);
+        Some(Self { radial, squares, bending_shares, second, coefficients, missing, rounded })
     }
 }
 

@@ -10,7 +10,8 @@ mod solution;
 use super::best::Best;
 use super::bounds::Bounds;
 use super::eigen::sign;
-use super::found::Found;
+use super::found::{Errors, Found};
+use super::losses;
 use crate::PhysicsError;
 use crate::elements::MeshShapes;
 use crate::fabric::Fabric;
@@ -19,8 +20,9 @@ use meshed::{mean_edge, meshed};
 use sizing::Plan;
 use solution::Solution;
 use std::f64::consts::TAU;
-use unripple_core::{Cached, Cost, Edge, Encoded, Memory, Observed, Surface};
-use unripple_linalg::Mat;
+use unripple_core::{Cached, Cost, Decay, Edge, Encoded, Memory, Observed, Surface};
+use unripple_linalg::sparse::SparseColMatRef;
+use unripple_linalg::{Mat, product};
 
 /// Largest number of meshes solved after the first two, each finer than the mesh before by a factor of 1.25
 /// to 1.6. More would only delay the failure if the accuracy cannot be reached.
@@ -120,12 +122,14 @@ fn refined(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<(Solut
             }
             return Err(too_large(surface, bounds, &plan)?);
         }
-        let fine = match modes(surface, fabric, bounds, &plan, &mesh(1 + levels.len())) {
+        let mut fine = match modes(surface, fabric, bounds, &plan, &mesh(1 + levels.len())) {
             Err(PhysicsError::Solver { .. }) if best.is_any() => break,
             fine => fine?,
         };
         levels.push(fine.level());
-        let error = rates::error(&levels) + plan.unresolved();
+        let unresolved = plan.unresolved();
+        let error = rates::error(&levels) + unresolved;
+        fine.state(&levels, unresolved);
         if error <= bounds.accuracy {
             return Ok((fine, error));
         }
@@ -195,9 +199,33 @@ fn modes(
         let (energy, square) = (bent[m], pairs.values[m]);
         if square > 0.0 { (energy / square).clamp(0.0, 1.0) } else { 0.0 }
     };
-    let bending_shares = (0..pairs.values.len()).map(share).collect();
+    let bending_shares: Vec<f64> = (0..pairs.values.len()).map(share).collect();
+    let second = second(surface, fabric, &pairs, &bending_shares, forms.bending.as_ref());
+    let errors = second.into_iter().map(|second| Errors { second, ..Errors::default() }).collect();
     space.nodal(&mut pairs.vectors);
-    Ok(Solution { plan: plan.clone(), space, pairs, bending_shares, edge: mean_edge(&mesh) })
+    Ok(Solution { plan: plan.clone(), space, pairs, bending_shares, errors, edge: mean_edge(&mesh) })
+}
+
+/// What a loss factor changes to second order, of each mode; infinite, where tension or springs act as well, for other laws of damping, for
+/// which it is not computed.
+fn second(
+    surface: &Surface,
+    fabric: &Fabric,
+    pairs: &Pairs,
+    shares: &[f64],
+    bending: SparseColMatRef<usize, f64>,
+) -> Vec<f64> {
+    let edges: Vec<Edge> =
+        surface.outline.loops().iter().flat_map(|rim| rim.sides.iter().map(|(_, edge)| *edge)).collect();
+    let sprung = edges.iter().any(|edge| matches!(edge, Edge::Elastic { .. }));
+    if !(fabric.bends() && (surface.sheet.tension > 0.0 || sprung)) {
+        return losses::uncoupled(shares);
+    }
+    let Decay::LossFactor(eta) = surface.sheet.decay else { return vec![f64::INFINITY; shares.len()] };
+    let forces = spectrum::symmetric_times(bending, pairs.vectors.as_ref());
+    let between = product(pairs.vectors.transpose(), forces.as_ref());
+    let far = losses::far(&edges, surface.sheet.uneven.is_uniform());
+    losses::second(&pairs.values, between.as_ref(), far, 1.0 / eta)
 }
 
 /// Sets the eigenvalues of rigid-body modes, which differ from 0 by rounding errors, to 0. The lowest
@@ -231,7 +259,7 @@ fn rigid_motions(surface: &Surface) -> usize {
 
 /// The modes of a solution, with the added mass of air and a definite sign.
 fn found(solution: Solution, bounds: &Bounds, error: f64) -> Found {
-    let Solution { space, pairs, bending_shares, .. } = solution;
+    let Solution { space, pairs, bending_shares, errors, .. } = solution;
     let (omegas, factors): (Vec<f64>, Vec<f64>) =
         pairs.values.iter().map(|square| bounds.loaded(square.max(0.0))).unzip();
     let signed = |m: usize| factors[m] * sign(pairs.vectors.col(m));
@@ -239,7 +267,7 @@ fn found(solution: Solution, bounds: &Bounds, error: f64) -> Found {
     let vectors = &pairs.vectors;
     let coefficients = Mat::from_fn(vectors.nrows(), vectors.ncols(), |u, m| vectors[(u, m)] * factors[m]);
     let shapes = Box::new(MeshShapes::new(space, coefficients.as_ref()));
-    Found { omegas, bending_shares, shapes, error }
+    Found { omegas, bending_shares, shapes, error, errors }
 }
 
 /// The cost of a solution, on the three meshes that most surfaces take.

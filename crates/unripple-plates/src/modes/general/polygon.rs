@@ -8,6 +8,8 @@
 
 use super::solution::Solution;
 use crate::modes::bounds::Bounds;
+use crate::modes::found::Errors;
+use crate::modes::losses;
 use crate::{Medium, PhysicsError};
 use std::f64::consts::PI;
 use unripple_core::plane::Rims;
@@ -48,14 +50,19 @@ pub(super) fn membrane(
 
 /// The modes of the plate from the modes of the membrane.
 pub(super) fn plate(membrane: Solution, as_membrane: &Bounds, bounds: &Bounds) -> Solution {
-    let Solution { mut pairs, mut bending_shares, .. } = membrane;
+    let Solution { mut pairs, mut bending_shares, mut errors, .. } = membrane;
     let (of_membrane, of_plate) = (as_membrane.vacuum(), bounds.vacuum());
     for (square, share) in pairs.values.iter_mut().zip(&mut bending_shares) {
         let k = of_membrane.wavenumber(square.sqrt());
         *square = of_plate.omega(k).powi(2);
         *share = of_plate.bending_share(k);
     }
-    Solution { pairs, bending_shares, ..membrane }
+    // The share is D k²/(T + D k²).
+    for (errors, second) in errors.iter_mut().zip(losses::uncoupled(&bending_shares)) {
+        let doubled = self::of_plate(errors.frequency);
+        *errors = Errors { frequency: doubled, share: doubled, shape: errors.shape, second };
+    }
+    Solution { pairs, bending_shares, errors, ..membrane }
 }
 
 /// The error to report for the plate, given the error of solving for the membrane.

@@ -10,6 +10,8 @@ pub(super) struct Level {
     pub(super) edge: f64,
     /// ω² of the modes, ascending, in 1/s².
     pub(super) squares: Vec<f64>,
+    /// Share of bending in the elastic energy of each mode.
+    pub(super) shares: Vec<f64>,
 }
 
 /// Safety factor on the estimated error: differences of two unstructured meshes vary by a factor of about 2
@@ -40,12 +42,39 @@ const APART: f64 = 1.12;
 /// which q follows (Richardson), and the error d/(b^q - 1) with d the last difference. That of the difference before, taken to fall at
 /// [`PACE`], is a lower limit, so that no chance agreement of two meshes is taken for accuracy.
 pub(super) fn error(levels: &[Level]) -> f64 {
+    let worst = |errors: Vec<f64>| errors.into_iter().fold(0.0, f64::max) + ROUNDING;
+    remaining(levels, differences).map_or(f64::INFINITY, worst)
+}
+
+/// Bounds of the relative errors of the frequencies on the last mesh, one by one: no mode has less than any below it, since what is left
+/// grows with the wavenumber, but at corners. `None` as [`error`] is infinite.
+pub(super) fn of_frequencies(levels: &[Level]) -> Option<Vec<f64>> {
+    let mut most = 0.0_f64;
+    let grown = |error: f64| {
+        most = most.max(error);
+        most + ROUNDING
+    };
+    Some(remaining(levels, differences)?.into_iter().map(grown).collect())
+}
+
+/// Bounds of the relative errors of the shares of bending on the last mesh, one by one. `None` as [`error`] is infinite.
+pub(super) fn of_shares(levels: &[Level]) -> Option<Vec<f64>> {
+    let apart = |coarse: &Level, fine: &Level| {
+        let differ = |(a, b): (&f64, &f64)| if *b > 0.0 { (a / b - 1.0).abs() } else { 0.0 };
+        let all = coarse.shares.iter().zip(&fine.shares);
+        comparable(coarse, fine).then(|| all.map(differ).collect::<Vec<f64>>())
+    };
+    Some(remaining(levels, apart)?.into_iter().map(|error| error + ROUNDING).collect())
+}
+
+/// What is left on the last mesh of differences between meshes, mode by mode, up to the end of the shorter of the last two.
+fn remaining(levels: &[Level], differences: impl Fn(&Level, &Level) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
     let coarser = |than: &Level| levels.iter().rev().find(|level| level.edge > APART * than.edge);
-    let Some(fine) = levels.last() else { return f64::INFINITY };
-    let Some(middle) = coarser(fine) else { return f64::INFINITY };
-    let Some(last) = differences(&middle.squares, &fine.squares) else { return f64::INFINITY };
+    let fine = levels.last()?;
+    let middle = coarser(fine)?;
+    let last = differences(middle, fine)?;
     let coarse = coarser(middle);
-    let before = coarse.and_then(|coarse| differences(&coarse.squares, &middle.squares)).unwrap_or_default();
+    let before = coarse.and_then(|coarse| differences(coarse, middle)).unwrap_or_default();
     let (a, b) = (coarse.map_or(1.0, |coarse| coarse.edge / middle.edge), middle.edge / fine.edge);
     let of = |j: usize| {
         let d = around(&last, j);
@@ -56,7 +85,7 @@ pub(super) fn error(levels: &[Level]) -> f64 {
         let measured = d / (b.powf(rate(c / d, [a, b])) - 1.0);
         measured.max(c / ((a.powf(PACE) - 1.0) * b.powf(PACE)))
     };
-    SAFETY * (0..last.len()).map(of).fold(0.0, f64::max) + ROUNDING
+    Some((0..last.len()).map(|j| SAFETY * of(j)).collect())
 }
 
 /// Share of the requested accuracy that the error on the third mesh is planned to have, if the error falls
@@ -73,7 +102,7 @@ const THIRD: [f64; 2] = [1.25, 1.6];
 pub(super) fn finer(levels: &[Level], accuracy: f64) -> f64 {
     let [least, most] = THIRD;
     let [coarse, fine] = levels else { return least };
-    let Some(differences) = differences(&coarse.squares, &fine.squares) else { return most };
+    let Some(differences) = differences(coarse, fine) else { return most };
     let worst = differences.into_iter().fold(0.0, f64::max);
     let left = SAFETY * worst / ((coarse.edge / fine.edge).powf(PACE) - 1.0);
     (left / (PLANNED * accuracy)).powf(1.0 / PACE).clamp(least, most)
@@ -95,14 +124,15 @@ fn rate(ratio: f64, [a, b]: [f64; 2]) -> f64 {
     low
 }
 
-/// The relative differences of two lists of frequencies, given as squares, up to the end of the shorter
-/// list; `None` if the finer mesh has more than a tenth plus two additional modes.
-fn differences(coarse: &[f64], fine: &[f64]) -> Option<Vec<f64>> {
-    if fine.len() as f64 > 1.1 * coarse.len() as f64 + 2.0 {
-        return None;
-    }
+/// The relative differences of the frequencies on two meshes, up to the end of the shorter list; `None` if they cannot be compared.
+fn differences(coarse: &Level, fine: &Level) -> Option<Vec<f64>> {
     let differ = |(a, b): (&f64, &f64)| if *b > 0.0 { (0.5 * (a / b - 1.0)).abs() } else { 0.0 };
-    Some(coarse.iter().zip(fine).map(differ).collect())
+    comparable(coarse, fine).then(|| coarse.squares.iter().zip(&fine.squares).map(differ).collect())
+}
+
+/// Whether the modes on two meshes are the same ones: unless the finer mesh has more than a tenth plus two additional modes.
+fn comparable(coarse: &Level, fine: &Level) -> bool {
+    fine.squares.len() as f64 <= 1.1 * coarse.squares.len() as f64 + 2.0
 }
 
 /// The largest among the difference with index `j` and those of its neighbours; for an index beyond the
@@ -124,6 +154,7 @@ mod tests {
         let level = |i: usize| Level {
             edge: lengths[i],
             squares: (1..30).map(|m| (f64::from(m) * (1.0 + of(lengths[i]))).powi(2)).collect(),
+            shares: vec![0.3 * (1.0 - of(lengths[i])); 29],
         };
         ((0..3).map(level).collect(), of(lengths[2]))
     }
@@ -137,6 +168,10 @@ mod tests {
                     let stated = error(&levels);
                     assert!(stated > exact, "{finer:?} {fast} {slow} {order}: {stated:e} {exact:e}");
                     assert!(stated < 20.0 * exact, "{finer:?} {fast} {slow} {order}: {stated:e} {exact:e}");
+                    for each in [of_frequencies(&levels), of_shares(&levels)] {
+                        let each = each.unwrap();
+                        assert!(each.len() == 29 && each.iter().all(|e| *e > exact && *e < 25.0 * exact));
+                    }
                 }
             }
         }

@@ -12,6 +12,7 @@ use super::springs::Springs;
 use crate::PhysicsError;
 use crate::modes::best::Best;
 use crate::modes::bounds::Bounds;
+use crate::modes::losses;
 use rayon::prelude::*;
 use unripple_core::{Edge, Encoded, Observed};
 use unripple_linalg::{Mat, Par};
@@ -175,6 +176,7 @@ pub(super) fn plate(problem: &Problem, lines: [Line; 2]) -> Plate {
         tension: scale(2, medium.tension),
         bending: scale(4, medium.bending_stiffness),
         poisson: problem.bounds.poisson,
+        far: losses::far(problem.edges.as_flattened(), true),
         square: problem.square(),
     }
 }
@@ -225,6 +227,7 @@ fn rigid(plate: &Plate, counts: [usize; 2]) -> Vec<BlockModes> {
             products: vec![product],
             squares: vec![0.0],
             bending_shares: vec![0.0],
+            second: vec![0.0],
             coefficients: Mat::ones(1, 1),
             error: 0.0,
             rounded: 0.0,

@@ -17,7 +17,8 @@ mod sparse;
 mod springs;
 
 use super::eigen::sign;
-use super::found::Found;
+use super::found::{Errors, Found};
+use super::losses;
 use crate::{Medium, PhysicsError};
 use readout::Readout;
 use separable::{Separable, Wave};
@@ -85,10 +86,12 @@ fn separable(problem: &Problem) -> Result<Found, PhysicsError> {
     let vacuum: Medium = problem.bounds.vacuum();
     let (omegas, factors): (Vec<f64>, Vec<f64>) =
         wavenumbers.iter().map(|k| problem.bounds.loaded(vacuum.omega(*k).powi(2))).unzip();
-    let bending_shares = wavenumbers.iter().map(|k| vacuum.bending_share(*k)).collect();
+    let bending_shares: Vec<f64> = wavenumbers.iter().map(|k| vacuum.bending_share(*k)).collect();
+    let exact = |second| Errors { second, ..Errors::default() };
+    let errors = losses::uncoupled(&bending_shares).into_iter().map(exact).collect();
     let form = Form::Separable(shapes.scaled(&factors));
     let shapes = Rectangle { sides: problem.sides, modes: omegas.len(), form };
-    Ok(Found { omegas, bending_shares, shapes: Box::new(shapes), error: 0.0 })
+    Ok(Found { omegas, bending_shares, shapes: Box::new(shapes), error: 0.0, errors })
 }
 
 /// The key of a problem's solution in a cache.
@@ -109,16 +112,22 @@ fn ritz(problem: &Problem) -> Result<Found, PhysicsError> {
     let (squares, places) = order::ascending(&blocks);
     let mut ranks: Vec<Vec<usize>> = blocks.iter().map(|b| vec![0; b.squares.len()]).collect();
     let mut factors: Vec<Vec<f64>> = blocks.iter().map(|b| vec![0.0; b.squares.len()]).collect();
-    let (mut omegas, mut bending_shares) = (Vec::new(), Vec::new());
+    let (mut omegas, mut bending_shares, mut errors) = (Vec::new(), Vec::new(), Vec::new());
     for (rank, (square, (b, m))) in squares.iter().zip(places).enumerate() {
         let (omega, factor) = problem.bounds.loaded(*square);
         omegas.push(omega);
-        bending_shares.push(blocks[b].bending_shares[m]);
+        let share = blocks[b].bending_shares[m];
+        bending_shares.push(share);
+        errors.push(if *square > 0.0 {
+            Errors::of_ritz(error, share, blocks[b].second[m])
+        } else {
+            Errors::default()
+        });
         ranks[b][m] = rank;
         factors[b][m] = factor * sign(blocks[b].coefficients.col(m));
     }
     let readout = Readout::new(problem.sides, lines, problem.mass(), blocks, ranks, &factors);
     let form = Form::Ritz(Box::new(readout));
     let shapes = Rectangle { sides: problem.sides, modes: omegas.len(), form };
-    Ok(Found { omegas, bending_shares, shapes: Box::new(shapes), error })
+    Ok(Found { omegas, bending_shares, shapes: Box::new(shapes), error, errors })
 }

@@ -1,6 +1,7 @@
 //! The Rayleigh-Ritz eigenvalue problem, one symmetry class at a time.
 
 use super::super::eigen::product;
+use super::super::losses;
 use super::super::ritz::{lowest, missing};
 use super::plate::Plate;
 use super::product::{Product, Symmetry};
@@ -20,6 +21,8 @@ pub(crate) struct BlockModes {
     pub(crate) squares: Vec<f64>,
     /// Share of bending in the elastic energy of each mode; 0 for rigid-body modes.
     pub(crate) bending_shares: Vec<f64>,
+    /// What a loss factor changes to second order, of each mode; see [`losses::second`].
+    pub(crate) second: Vec<f64>,
     /// Coefficients, products x modes; columns are orthonormal.
     pub(crate) coefficients: Mat<f64>,
     /// Largest relative error of a frequency for want of further products, estimated; infinite if the products are too few to reach the
@@ -34,17 +37,19 @@ impl Encoded for BlockModes {
         self.products.encode(to);
         self.squares.encode(to);
         self.bending_shares.encode(to);
+        self.second.encode(to);
         self.coefficients.encode(to);
         [self.error, self.rounded].encode(to);
     }
 
     fn decode(from: &mut &[u8]) -> Option<Self> {
         let (products, squares) = <(Vec<Product>, Vec<f64>)>::decode(from)?;
-        let (bending_shares, coefficients) = <(Vec<f64>, Mat<f64>)>::decode(from)?;
+        let (bending_shares, second) = <(Vec<f64>, Vec<f64>)>::decode(from)?;
+        let coefficients = Mat::decode(from)?;
         let [error, rounded] = Encoded::decode(from)?;
         let sizes = (coefficients.nrows(), coefficients.ncols(), bending_shares.len());
-        let fits = sizes == (products.len(), squares.len(), squares.len());
-        fits.then_some(Self { products, squares, bending_shares, coefficients, error, rounded })
+        let fits = sizes == (products.len(), squares.len(), squares.len()) && second.len() == squares.len();
+        fits.then_some(Self { products, squares, bending_shares, second, coefficients, error, rounded })
     }
 }
 
@@ -55,6 +60,7 @@ impl BlockModes {
             products: self.products.iter().map(|p| p.mirrored()).collect(),
             squares: self.squares.clone(),
             bending_shares: self.bending_shares.clone(),
+            second: self.second.clone(),
             coefficients: self.coefficients.clone(),
             error: self.error,
             rounded: self.rounded,
@@ -78,30 +84,41 @@ pub(crate) fn solve_block(plate: &Plate, symmetry: Symmetry, top: f64, par: Par)
     let inside = squares.partition_point(|v| *v <= top);
     let squares = squares[..inside].to_vec();
     let coefficients = coefficients.subcols(0, inside).to_owned();
-    let bending_shares = bending_shares(plate, &products, &squares, &coefficients, par);
+    let (bending_shares, second) = losses(plate, &products, &squares, &coefficients, par);
     let rounded = squares.first().map_or(0.0, |lowest| plate.rounded(*lowest));
-    Some(BlockModes { products, squares, bending_shares, coefficients, error, rounded })
+    Some(BlockModes { products, squares, bending_shares, second, coefficients, error, rounded })
 }
 
-/// The share of bending in each mode's elastic energy: 1 minus that of tension and springs.
-fn bending_shares(
+/// The share of bending in each mode's elastic energy, 1 minus that of tension and springs, and what a loss factor changes to second order.
+fn losses(
     plate: &Plate,
     products: &[Product],
     squares: &[f64],
     coefficients: &Mat<f64>,
     par: Par,
-) -> Vec<f64> {
+) -> (Vec<f64>, Vec<f64>) {
     if !plate.is_held_by_more_than_bending() {
-        return vec![1.0; squares.len()];
+        return all_bending(squares.len());
     }
     let others = plate.without_bending().stiffness(products, products);
     let forces = product(others.as_ref(), coefficients.as_ref(), par);
-    let pairs = coefficients.col_iter().zip(forces.col_iter());
-    pairs
-        .zip(squares)
-        .map(|((shape, force), square)| {
-            let energy: f64 = shape.iter().zip(force.iter()).map(|(c, f)| c * f).sum();
-            (1.0 - energy / square).clamp(0.0, 1.0)
-        })
-        .collect()
+    shares(plate, squares, product(coefficients.transpose(), forces.as_ref(), Par::Seq))
+}
+
+/// The shares of modes that store their energy in bending alone, and what a loss factor changes to second order.
+pub(crate) fn all_bending(modes: usize) -> (Vec<f64>, Vec<f64>) {
+    let shares = vec![1.0; modes];
+    let second = losses::uncoupled(&shares);
+    (shares, second)
+}
+
+/// The share of bending of each mode, and what a loss factor changes to second order, from the energy (1/s²) of tension and springs
+/// between the modes.
+pub(crate) fn shares(plate: &Plate, squares: &[f64], others: Mat<f64>) -> (Vec<f64>, Vec<f64>) {
+    let own = |m: usize| (1.0 - others[(m, m)] / squares[m]).clamp(0.0, 1.0);
+    let bending = Mat::from_fn(squares.len(), squares.len(), |i, j| {
+        if i == j { own(i) * squares[i] } else { -others[(i, j)] }
+    });
+    let second = losses::second(squares, bending.as_ref(), plate.far, f64::INFINITY);
+    ((0..squares.len()).map(own).collect(), second)
 }

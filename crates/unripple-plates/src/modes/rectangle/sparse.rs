@@ -4,7 +4,7 @@ use super::super::ritz::ABOVE;
 use super::line::{Class, Line};
 use super::plate::Plate;
 use super::product::{Product, Symmetry};
-use super::ritz::BlockModes;
+use super::ritz::{BlockModes, all_bending, shares};
 use crate::modes::eigen::product;
 use crate::spectrum::{self, Pairs, SpectrumError};
 use unripple_core::Observed;
@@ -55,10 +55,10 @@ impl SparsePlate {
         let smooth = turned(symmetry, &self.in_cubics, (&inner, vectors), &inner);
         let [stiffness, _] = cubic;
         let (squares, rounded) = energies(stiffness, smooth.as_ref());
-        let bending_shares = self.bending_shares(&inner, symmetry.mirror, &squares, smooth.as_ref());
+        let (bending_shares, second) = self.losses(&inner, symmetry.mirror, &squares, smooth.as_ref());
         let products = plate.products(symmetry);
         let coefficients = turned(symmetry, &self.in_orthonormal, (&inner, vectors), &products);
-        Ok(BlockModes { products, squares, bending_shares, coefficients, error, rounded })
+        Ok(BlockModes { products, squares, bending_shares, second, coefficients, error, rounded })
     }
 
     /// The modes between the given products with ω² below `top`, K x = ω² M x with xᵀMx = 1, from the pencil K x = κ (K + τM) x.
@@ -134,20 +134,21 @@ impl SparsePlate {
         Ok(changes.fold(0.0, |most, change| if change.is_nan() { f64::INFINITY } else { most.max(change) }))
     }
 
-    /// The share of bending in the elastic energy of each mode, given in cubics: 1 minus that of tension and springs.
-    fn bending_shares(
+    /// The share of bending in the elastic energy of each mode, given in cubics, 1 minus that of tension and springs, and what a loss factor
+    /// changes to second order.
+    fn losses(
         &self,
         inner: &[Product],
         mirror: f64,
         squares: &[f64],
         smooth: MatRef<f64>,
-    ) -> Vec<f64> {
+    ) -> (Vec<f64>, Vec<f64>) {
         if !self.cubic.is_held_by_more_than_bending() {
-            return vec![1.0; squares.len()];
+            return all_bending(squares.len());
         }
         let [stiffness, _] = matrices(&self.cubic.without_bending(), inner, mirror);
-        let others = spectrum::works(stiffness.as_ref(), smooth);
-        others.iter().zip(squares).map(|(energy, square)| (1.0 - energy / square).clamp(0.0, 1.0)).collect()
+        let forces = spectrum::symmetric_times(stiffness.as_ref(), smooth);
+        shares(&self.cubic, squares, product(smooth.transpose(), forces.as_ref(), Par::Seq))
     }
 }
 
