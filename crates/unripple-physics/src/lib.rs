@@ -37,6 +37,7 @@ mod cost;
 mod coupled;
 pub mod design;
 mod loads;
+mod response_error;
 mod responses;
 pub mod stepper;
 mod surface_modes;
@@ -46,8 +47,10 @@ pub use cost::response_cost;
 pub use coupled::{Loaded, Oscillations};
 pub use design::{Design, design};
 pub use loads::{Circuit, Footprint, Housing, Load};
+pub use response_error::{left_out, response_error};
 pub use responses::{
-    ResponseOptions, accuracy, response_modes, responses, responses_on, sample, sampled_hz, stepped_hz,
+    ResponseOptions, SAMPLING_ERROR, accuracy, response_modes, responses, responses_on, sample, sampled_hz,
+    stepped_hz,
 };
 pub use stepper::{Channel, Plant, StepperOptions, VirtualSurface};
 pub use surface_modes::SurfaceModes;

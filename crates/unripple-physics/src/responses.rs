@@ -22,6 +22,10 @@ const POINTS: usize = 64;
 /// modal weights. Ten times more would be larger than that rounding.
 const LIBRARY_ACCURACY: f64 = 1e-6;
 
+/// Relative error, root mean square, that [`sample()`] adds to responses: that of each mode's part, with its rounding. Half as much would be
+/// less than some modes have.
+pub const SAMPLING_ERROR: f64 = 2.0 * LIBRARY_ACCURACY;
+
 /// With loads, modes are kept one by one up to this multiple of the top frequency; modes above are far from
 /// resonance within the band. With twice this value, eigenvalue problems have up to four times the
 /// coordinates, and take 64 times as long.
@@ -238,11 +242,14 @@ impl Asked {
         let emission = &surface.emission;
         let [low, high] = emission.band;
         let frequency_error = modes.error();
-        let (poles, input, shapes) = if self.bare() {
-            unloaded(modes, &self.transducers, low)
+        let errors = modes.errors().to_vec();
+        let (poles, input, shapes, mode_errors) = if self.bare() {
+            let (poles, input, shapes) = unloaded(modes, &self.transducers, low);
+            let above = errors.len() - poles.len();
+            (poles, input, shapes, errors[above..].to_vec())
         } else {
             let found = self.coupled(surface, modes)?;
-            (found.poles, found.input, found.shapes)
+            (found.poles, found.input, found.shapes, Vec::new())
         };
         let ports = surface.actuators.iter().map(|a| Port { name: a.name.clone(), at: a.at }).collect();
         let conditions = Conditions {
@@ -251,7 +258,15 @@ impl Asked {
             lambda_min: Medium::of(&surface.sheet).lambda_min(high),
             outline: surface.outline.clone(),
         };
-        Ok(Responses::Modal(ModalResponses { ports, poles, input, shapes, conditions, frequency_error }))
+        Ok(Responses::Modal(ModalResponses {
+            ports,
+            poles,
+            input,
+            shapes,
+            conditions,
+            frequency_error,
+            mode_errors,
+        }))
     }
 }
 

@@ -4,7 +4,7 @@ use crate::responses::Asked;
 use crate::{Accuracy, Modes, PhysicsError, ResponseOptions, cost};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use unripple_core::{Cost, Pole, Surface};
+use unripple_core::{Cost, ModeError, Pole, Surface};
 
 /// The modes of a surface up to a frequency, lowest first, without their shapes.
 ///
@@ -20,6 +20,8 @@ pub struct SurfaceModes {
     pub loaded: Option<Vec<Pole>>,
     /// An upper bound of the relative error of the frequencies of the sheet alone, see [`Modes::error`](crate::Modes::error).
     pub error: f64,
+    /// Upper bounds of the errors of each mode of the sheet alone, see [`Modes::errors`](crate::Modes::errors).
+    pub errors: Vec<ModeError>,
 }
 
 impl SurfaceModes {
@@ -101,6 +103,7 @@ impl SurfaceModes {
             bending_shares: modes.bending_shares()[..inside].to_vec(),
             loaded: None,
             error: modes.error(),
+            errors: modes.errors()[..inside].to_vec(),
         }
     }
 

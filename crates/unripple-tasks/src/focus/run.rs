@@ -105,9 +105,8 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", judged_surface)?;
     progress.stage(judge::RESPONSES);
     // A library is evaluated on itself.
-    let modelled = plant.is_some() || stored.is_none();
-    let models =
-        modelled.then(|| judge::models(judged_surface, ask.judge_hz, &contacts, &solved)).transpose()?;
+    let models = || judge::models(judged_surface, ask.judge_hz, &contacts, &solved);
+    let models = (plant.is_some() || stored.is_none()).then(models).transpose()?;
     let free = models.as_ref().map_or(&responses, |(models, _)| &models.free);
     let under = models.as_ref().and_then(|(models, _)| models.under.as_ref()).unwrap_or(free);
     let act = Act { surface: judged_surface, responses: under, targets: &targets, options: &settings, level };
@@ -120,10 +119,11 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let judged = judge::seen(sent.until, progress, || act.judge(&sent, &on))?;
     let (focused, drive) = (sent.focused, sent.drive);
     let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
-    report.level = Some(sent.strength);
+    let error = act::response_error(under, settings.window);
+    (report.level, report.response_error) = (Some(sent.strength), error);
     report.fingers = act::felt(&contacts, judged_surface, [under, free], &drive, sent.until)?;
-    report.notes.extend(chosen.map(|chosen| Note { topic: "window", text: chosen.text() }));
-    report.notes.extend(restored);
+    let window = chosen.map(|chosen| Note { topic: "window", text: chosen.text() });
+    report.notes.extend(window.into_iter().chain(restored));
     models.iter().for_each(|(_, judging)| judging.tell(judged_surface, &mut report));
     stored.into_iter().for_each(|of| tell_of_library(&mut report, of, act::nearby(&focused, &targets)));
     if unscaled.is_some() {

@@ -27,6 +27,9 @@ pub struct Report {
     pub bending_shares: Vec<f64>,
     /// Upper bound of the relative error of the natural frequencies; 0 if there are rounding errors alone.
     pub relative_error: f64,
+    /// Upper bound of the relative error of the decay time of each mode of the sheet alone; `None` where it is not known and for a mode that
+    /// does not decay.
+    pub decay_errors: Vec<Option<f64>>,
     /// The modes with the masses, springs, coils and electrical loads of the actuators; `None` if no actuator loads the sheet.
     pub loaded: Option<Loaded>,
     /// Remarks on the surface, if any.
@@ -93,10 +96,32 @@ impl Report {
             0.0 => writeln!(text, "  relative error of a frequency: rounding alone"),
             error => writeln!(text, "  relative error of a frequency: at most {error:.1e}"),
         };
+        text += &self.of_decay();
         for note in &self.notes {
             let _ = writeln!(text, "note, {}: {}", note.topic, note.text);
         }
         text
+    }
+
+    /// The line on the error of decay times, if any mode decays.
+    fn of_decay(&self) -> String {
+        let decaying = self.decay_times_s.iter().filter(|decay| decay.is_some()).count();
+        if decaying == 0 {
+            return String::new();
+        }
+        let largest = self.decay_errors.iter().flatten().copied().reduce(f64::max);
+        let unknown = decaying - self.decay_errors.iter().flatten().count();
+        let known = match largest {
+            None => "not known".into(),
+            Some(0.0) => "rounding alone".into(),
+            Some(error) => format!("at most {error:.1e}"),
+        };
+        let but = if largest.is_some() && unknown > 0 {
+            format!(", not known of {unknown} modes")
+        } else {
+            String::new()
+        };
+        format!("  relative error of a decay time: {known}{but}\n")
     }
 
     /// The line on motions as a rigid body among the modes, if there are any.

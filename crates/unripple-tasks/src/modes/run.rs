@@ -5,6 +5,7 @@ use crate::curves::flattened;
 use crate::numbers::above_zero;
 use crate::{Progress, TaskError, cost, go_on, machine};
 use unripple::act::less_accurate;
+use unripple::core::ModeError;
 use unripple::physics::{Accuracy, PhysicsError, SurfaceModes};
 
 /// Default relative accuracy, if it can be reached: a phase error of 1e-3 rad at 3 kHz after 50 ms. With a
@@ -26,6 +27,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     progress.stage("modes");
     let modes = SurfaceModes::solve(&surface, top, accuracy).map_err(refused)?;
     let sheet = Loaded::of(&modes.sheet);
+    let of_decay = |(decay, error): (&Option<f64>, &ModeError)| decay.and(error.decay);
+    let decay_errors = sheet.decay_times_s.iter().zip(&modes.errors).map(of_decay).collect();
     Ok(Report {
         surface: surface.name.clone(),
         max_hz: top,
@@ -33,6 +36,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         frequencies_hz: sheet.frequencies_hz,
         decay_times_s: sheet.decay_times_s,
         relative_error: modes.error,
+        decay_errors,
         loaded: modes.loaded.as_deref().map(Loaded::of),
         notes: flattened(&surface).into_iter().chain(less_accurate(modes.error, accuracy.aim)).collect(),
         bending_shares: modes.bending_shares,

@@ -1,6 +1,7 @@
 //! Report of the task `respond`.
 
 use serde::Serialize;
+use unripple::act::at_most;
 
 /// The library of responses that was written.
 #[derive(Clone, Debug, Serialize)]
@@ -29,6 +30,12 @@ pub struct Report {
     pub sample_rate_hz: f64,
     /// Shortest wavelength of the band, in m.
     pub lambda_min_m: f64,
+    /// Upper bound of the relative error of the responses, root mean square over their length and all points and actuators, by the errors
+    /// of modes and samples; `None` if it is not known, as with loads on the sheet.
+    pub response_error: Option<f64>,
+    /// Upper bound of the share that modes above the band, which are left out, have in the motion within the band, root mean square, relative
+    /// to the responses; `None` if it is not known.
+    pub left_out: Option<f64>,
 }
 
 impl crate::Report for Report {
@@ -37,8 +44,10 @@ impl crate::Report for Report {
             0 => String::new(),
             before => format!(", {before} of them done before"),
         };
+        let known = |share: Option<f64>| share.map_or("not known".into(), at_most);
         format!(
-            "{}: responses of {} actuators at {} points, {} mm apart{taken_up}\n{} samples each, {:.3} ms at {} Hz\nwrote {}\n",
+            "{}: responses of {} actuators at {} points, {} mm apart{taken_up}\n{} samples each, {:.3} ms at {} Hz\n\
+             error of the responses: {}\nshare of the modes above the band, which are left out: {}\nwrote {}\n",
             self.surface,
             self.actuators,
             self.points,
@@ -46,6 +55,8 @@ impl crate::Report for Report {
             self.samples,
             (self.samples - 1) as f64 / self.sample_rate_hz * 1e3,
             self.sample_rate_hz,
+            known(self.response_error),
+            known(self.left_out),
             self.library
         )
     }

@@ -5,7 +5,7 @@ use crate::numbers::above_zero;
 use crate::{Progress, Record, TaskError, filling, go_on, grid, judge, record};
 use unripple::act::{self, carries, unit};
 use unripple::core::{ModalResponses, Responses, Surface, window_samples};
-use unripple::physics::sample;
+use unripple::physics::{SAMPLING_ERROR, left_out, response_error, sample};
 use unripple_calibrate::measure::MOST_KEPT;
 use unripple_store::{Library, LibraryPlan};
 
@@ -54,6 +54,9 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     record.log(&mut library)?;
     let before = library.done().len();
     let samples = plan.samples;
+    let length = samples as f64 / plan.conditions.rate;
+    let response_error = response_error(&modal, length).map(|error| error + SAMPLING_ERROR);
+    let left_out = left_out(&surface, &modal, length);
     filling::fill(&mut library, &[], progress, &mut |places| Ok(sample(&modal, places, samples)))?;
     Ok(Report {
         program: "unripple",
@@ -68,6 +71,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         samples: plan.samples,
         sample_rate_hz: plan.conditions.rate,
         lambda_min_m: plan.conditions.lambda_min,
+        response_error,
+        left_out,
     })
 }
 

@@ -36,7 +36,7 @@ pub use fingers::{Felt, felt};
 pub use judge::{Judged, judge, known};
 pub use judging::{JUDGED_BANDS, Judging, Missed, Reached, judged_hz, reached};
 pub use level::Level;
-pub use model::{accuracy, inexact, less_accurate, model, model_modes, model_on};
+pub use model::{accuracy, at_most, inexact, less_accurate, model, model_modes, model_on, response_error};
 pub use note::{Note, nearby};
 pub use power::power;
 pub use readouts::{CELLS, Readouts};

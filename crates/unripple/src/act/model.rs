@@ -2,7 +2,7 @@
 
 use super::{ActError, Note};
 use crate::core::{Contact, Responses, Surface};
-use crate::physics::{Modes, ResponseOptions, response_modes, responses, responses_on};
+use crate::physics::{self, Modes, ResponseOptions, response_modes, responses, responses_on};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -29,6 +29,34 @@ pub fn less_accurate(error: f64, aim: f64) -> Option<Note> {
         )
     };
     (error > aim).then(|| Note { topic: "accuracy", text: text() })
+}
+
+/// A bound of the relative error (root mean square) of responses in the first `seconds` (s), see [`physics::response_error`]; `None` for those
+/// that are not computed from modes, and with loads.
+pub fn response_error(responses: &Responses, seconds: f64) -> Option<f64> {
+    let Responses::Modal(modal) = responses else { return None };
+    physics::response_error(modal, seconds)
+}
+
+/// A bound of a relative error in words, as a percentage of two digits that is not less.
+///
+/// ```
+/// use unripple::act::at_most;
+///
+/// assert_eq!(at_most(0.0123), "at most 1.3 %");
+/// assert_eq!([at_most(0.52), at_most(2.01e-5), at_most(0.0)], ["at most 52 %", "at most 0.0021 %", "rounding alone"]);
+/// ```
+pub fn at_most(error: f64) -> String {
+    if error <= 0.0 {
+        return "rounding alone".into();
+    }
+    let percent = 100.0 * error;
+    let digits = 1 - percent.log10().floor() as i32;
+    let scale = 10f64.powi(digits);
+    // Less by far than what is printed, so that rounding errors do not raise it.
+    let up = (percent * scale - 1e-9).ceil() / scale;
+    let places = usize::try_from(digits).unwrap_or(0);
+    format!("at most {up:.places$} %")
 }
 
 /// Computes the responses of a surface with fingers at `contacts`, from modes up to `max_hz` (Hz; by

@@ -72,6 +72,10 @@ pub struct Report {
     /// Level of the drive relative to its limits, and what decided it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<Strength>,
+    /// An upper bound of the relative error (root mean square over the window) of the responses that a focus was evaluated on; absent where
+    /// it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub response_error: Option<f64>,
     /// Thickness of the sheet, in metres.
     #[serde(skip)]
     pub thickness: f64,
@@ -131,6 +135,7 @@ impl Report {
             coil_heat: CoilHeat::of(surface, drive, measured.drive.duration_s),
             drive: measured.drive.clone(),
             level: None,
+            response_error: None,
             thickness: surface.sheet.thickness,
             lambda_min_m: measured.lambda_min_m,
             focal_radius_m: measured.focal_radius_m,

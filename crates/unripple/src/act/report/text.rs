@@ -2,7 +2,7 @@
 
 use super::{CoilHeat, Report, played};
 use crate::Touch;
-use crate::act::{Felt, note};
+use crate::act::{Felt, at_most, note};
 use crate::field::{TakenOn, TargetFigures, Threshold};
 use std::fmt::Write;
 
@@ -39,6 +39,9 @@ impl Report {
         if let Some(line) = self.felt_line() {
             let _ = writeln!(text, "{line}");
         }
+        if let Some(line) = self.error_line() {
+            let _ = writeln!(text, "{line}");
+        }
         for note in &self.notes {
             let _ = writeln!(text, "note ({}): {}", note.topic, note.text);
         }
@@ -57,7 +60,7 @@ impl Report {
             let _ = writeln!(text, "{line}\n");
         }
         let _ = writeln!(text, "## Drive\n\n{}\n", self.drive_line());
-        if let Some(line) = self.level_line() {
+        for line in self.level_line().into_iter().chain(self.error_line()) {
             let _ = writeln!(text, "{line}\n");
         }
         text += "| channel | actuator | at mm | unit |\n|---:|---|---|---|\n";
@@ -111,6 +114,11 @@ impl Report {
             let _ = writeln!(text, "| {name} | {velocity} | {displacement} | {felt} |");
         }
         text.push('\n');
+    }
+
+    /// The line on the accuracy of the responses.
+    fn error_line(&self) -> Option<String> {
+        self.response_error.map(|error| format!("error of the responses: {}", at_most(error)))
     }
 
     /// The targets whose metrics are those of a focus: none for waveforms or a stroke.
