@@ -1,6 +1,7 @@
 //! Tests of unripple-plates that share one program: a file a kind of truth. What needs a process of its own is beside it.
 
 mod air_oracle;
+mod decay_bounds;
 mod discs_oracle;
 mod error_bounds;
 mod memory;

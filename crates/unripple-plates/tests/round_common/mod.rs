@@ -61,21 +61,24 @@ const STEPS: usize = 3000;
 pub fn frequencies(sheet: &Sheet, radius: f64, edge: Edge, max_hz: f64) -> Vec<f64> {
     let mut all = Vec::new();
     for n in 0.. {
-        let top = TAU * max_hz;
-        // Not from 0, where the determinant is that of a rigid motion.
-        let found = roots(
-            |omega| determinant(sheet, radius, edge, n, omega),
-            [1e-3 * top / STEPS as f64, top],
-            STEPS,
-        );
+        let found = of_order(sheet, radius, edge, n, max_hz);
         if found.is_empty() && n > 2 {
             break;
         }
         let times = if n == 0 { 1 } else { 2 };
-        all.extend(found.iter().flat_map(|omega| std::iter::repeat_n(omega / TAU, times)));
+        all.extend(found.iter().flat_map(|hz| std::iter::repeat_n(*hz, times)));
     }
     all.sort_by(f64::total_cmp);
     all
+}
+
+/// The frequencies with n nodal diameters below `max_hz`, in Hz, ascending, each once.
+pub fn of_order(sheet: &Sheet, radius: f64, edge: Edge, n: usize, max_hz: f64) -> Vec<f64> {
+    let top = TAU * max_hz;
+    // Not from 0, where the determinant is that of a rigid motion.
+    let ends = [1e-3 * top / STEPS as f64, top];
+    let found = roots(|omega| determinant(sheet, radius, edge, n, omega), ends, STEPS);
+    found.iter().map(|omega| omega / TAU).collect()
 }
 
 /// What vanishes at a frequency of n nodal diameters: conditions at the rim of J_n(αr) and I_n(βr), scaled.
