@@ -56,7 +56,7 @@ pub fn response_error(responses: &ModalResponses, seconds: f64) -> Option<f64> {
 }
 
 /// A bound of the share of the modes above the band, root mean square within the band, in the motion that forces cause: modes
-/// that are left out of responses, which respond almost as springs there. As in [`response_error`], it is relative to the responses in the
+/// that are left out of responses, which respond almost as springs there. As in [`response_error()`], it is relative to the responses in the
 /// band in the first `seconds` (s) and means all points and actuators together. `None` unless the sheet is uniform, all actuators are forces,
 /// and something moves.
 ///

@@ -117,7 +117,7 @@ impl Bounds {
 
     /// A bound of the relative error of a decay time with the rate of [`Bounds::decay_rate`], from those of the mode: `None` if there is none
     /// or if it would be more than a half, as where a loss mixes modes so close that they have no decay times of their own.
-    pub(crate) fn decay_error(
+    pub(super) fn decay_error(
         &self,
         decay: &Decay,
         omega: f64,
