@@ -13,12 +13,13 @@ const COUNTED: (usize, usize) = (20, 500);
 /// bands that end anywhere, what is true lies between 0.5 and 1.8 times the average.
 const SAFETY: f64 = 2.0;
 
-/// A bound of the relative error of impulse responses within their band, root mean square over the first `seconds` (s), over all points of the
-/// sheet and all actuators together; `None` if the errors of the modes are not known (with loads, in measured responses) or if nothing moves.
+/// A bound of the relative error of impulse responses within their band, root mean square over the first `seconds` (s), over all points of
+/// the sheet and all actuators together; `None` if the errors of the modes are not known (with loads, in measured responses) or if nothing
+/// moves.
 ///
-/// Oscillations with a relative error ε of their frequency and δ of their decay time drift apart as εωt and δσt, each weighed with its decay,
-/// and shapes are wrong at both places. These parts are added for each mode; modes, whose errors differ, add as squares. Modes above the band
-/// are not in the responses: see [`left_out`].
+/// Oscillations with a relative error ε of their frequency and δ of their decay time drift apart as εωt and δσt, each weighed with its
+/// decay, and shapes are wrong at both places. These parts are added for each mode; modes, whose errors differ, add as squares. Modes
+/// above the band are not in the responses: see [`left_out`].
 ///
 /// The peak at a focus of time reversal, the sum of products of response and drive, has at most the same relative error.
 ///
@@ -55,9 +56,9 @@ pub fn response_error(responses: &ModalResponses, seconds: f64) -> Option<f64> {
     error.is_finite().then_some(error)
 }
 
-/// A bound of the share of the modes above the band, root mean square within the band, in the motion that forces cause: modes
-/// that are left out of responses, which respond almost as springs there. As in [`response_error()`], it is relative to the responses in the
-/// band in the first `seconds` (s) and means all points and actuators together. `None` unless the sheet is uniform, all actuators are forces,
+/// A bound of the share of the modes above the band, root mean square within the band, in the motion that forces cause: modes that are
+/// left out of responses, which respond almost as springs there. As in [`response_error()`], it is relative to the responses in the band
+/// in the first `seconds` (s) and means all points and actuators together. `None` unless the sheet is uniform, all actuators are forces,
 /// and something moves.
 ///
 /// Modes above are as many as Weyl's law says: S k²/4π below the wavenumber k on an area S. Each has the mean square weight of those in the

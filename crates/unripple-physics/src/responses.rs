@@ -22,8 +22,8 @@ const POINTS: usize = 64;
 /// modal weights. Ten times more would be larger than that rounding.
 const LIBRARY_ACCURACY: f64 = 1e-6;
 
-/// Relative error, root mean square, that [`sample()`] adds to responses: that of each mode's part, with its rounding. Half as much would be
-/// less than some modes have.
+/// Relative error, root mean square, that [`sample()`] adds to responses: that of each mode's part, with its rounding. Half as much would
+/// be less than some modes have.
 pub const SAMPLING_ERROR: f64 = 2.0 * LIBRARY_ACCURACY;
 
 /// With loads, modes are kept one by one up to this multiple of the top frequency; modes above are far from

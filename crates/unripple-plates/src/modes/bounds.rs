@@ -115,8 +115,8 @@ impl Bounds {
         if self.medium.air_sides > 0.0 { self.medium.radiation(self.medium.wavenumber(omega)) } else { 0.0 }
     }
 
-    /// A bound of the relative error of a decay time with the rate of [`Bounds::decay_rate`], from those of the mode: `None` if there is none
-    /// or if it would be more than a half, as where a loss mixes modes so close that they have no decay times of their own.
+    /// A bound of the relative error of a decay time with the rate of [`Bounds::decay_rate`], from those of the mode: `None` if there is
+    /// none or if it would be more than a half, as where a loss mixes modes so close that they have no decay times of their own.
     pub(super) fn decay_error(
         &self,
         decay: &Decay,

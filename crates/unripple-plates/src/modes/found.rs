@@ -33,9 +33,9 @@ impl Errors {
     /// The errors of a mode by a Ritz method whose frequencies have an error of at most `error`, with the share of bending `share`.
     ///
     /// The energy of the error of a shape is twice the relative error of its frequency, and its mean square less, since it consists of
-    /// shorter waves. The share s is the logarithmic derivative of ω² by the bending stiffness, so that its error is that of twice the error
-    /// of the frequency: for errors that fall exponentially with the number of functions, with an exponent that varies as the root of the
-    /// stiffness at most, these errors times the exponent.
+    /// shorter waves. The share s is the logarithmic derivative of ω² by the bending stiffness, so that its error is that of twice the
+    /// error of the frequency: for errors that fall exponentially with the number of functions, with an exponent that varies as the root
+    /// of the stiffness at most, these errors times the exponent.
     pub(super) fn of_ritz(error: f64, share: f64, second: f64) -> Self {
         let pure = share <= 0.0 || 1.0 - share < PURE;
         let of_share = if pure || error <= 0.0 { 0.0 } else { -error * error.ln() / share };

@@ -190,8 +190,9 @@ impl Modes {
 
     /// Upper bounds of the relative errors of each mode, one for each pole.
     ///
-    /// That of a decay time follows from those of the frequency and of the share of bending, and, with a loss factor η, from what it changes to
-    /// second order: decay times are those of modes without loss, and loss couples modes where bending and tension or springs share the sheet.
+    /// That of a decay time follows from those of the frequency and of the share of bending, and, with a loss factor η, from what it
+    /// changes to second order: decay times are those of modes without loss, and loss couples modes where bending and tension or springs
+    /// share the sheet.
     ///
     /// ```
     /// # use unripple_core::*;

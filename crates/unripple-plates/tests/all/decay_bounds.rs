@@ -12,8 +12,8 @@ const RADIUS: f64 = 0.07;
 /// The films' loss factor.
 const ETA: f64 = 0.02;
 
-/// Step of the logarithm of the bending stiffness from one sheet to the next whose frequencies continue those of a real stiffness to a complex
-/// one: a fifth of it, and their rounding errors would count, five times as much, and the sixth derivative would.
+/// Step of the logarithm of the bending stiffness from one sheet to the next whose frequencies continue those of a real stiffness to a
+/// complex one: a fifth of it, and their rounding errors would count, five times as much, and the sixth derivative would.
 const STEP: f64 = 0.05;
 
 fn surface(shape: Shape, edge: Edge, decay: Decay) -> Surface {
@@ -66,8 +66,8 @@ fn exact(surface: &Surface, edge: Edge, max_hz: f64) -> Vec<(f64, f64)> {
     all
 }
 
-/// Holds the decay times (s) found to exact ones, and gives the ratios of stated and true errors, ascending. True errors up to `told` are not
-/// told from those of the reference.
+/// Holds the decay times (s) found to exact ones, and gives the ratios of stated and true errors, ascending. True errors up to `told` are
+/// not told from those of the reference.
 fn ratios(modes: &Modes, exact: &[f64], told: f64) -> Vec<f64> {
     let found = modes.decay_times();
     assert_eq!(found.len(), exact.len());

@@ -27,8 +27,8 @@ pub struct Report {
     pub bending_shares: Vec<f64>,
     /// Upper bound of the relative error of the natural frequencies; 0 if there are rounding errors alone.
     pub relative_error: f64,
-    /// Upper bound of the relative error of the decay time of each mode of the sheet alone; `None` where it is not known and for a mode that
-    /// does not decay.
+    /// Upper bound of the relative error of the decay time of each mode of the sheet alone; `None` where it is not known and for a mode
+    /// that does not decay.
     pub decay_errors: Vec<Option<f64>>,
     /// The modes with the masses, springs, coils and electrical loads of the actuators; `None` if no actuator loads the sheet.
     pub loaded: Option<Loaded>,

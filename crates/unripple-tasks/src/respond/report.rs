@@ -33,8 +33,8 @@ pub struct Report {
     /// Upper bound of the relative error of the responses, root mean square over their length and all points and actuators, by the errors
     /// of modes and samples; `None` if it is not known, as with loads on the sheet.
     pub response_error: Option<f64>,
-    /// Upper bound of the share that modes above the band, which are left out, have in the motion within the band, root mean square, relative
-    /// to the responses; `None` if it is not known.
+    /// Upper bound of the share that modes above the band, which are left out, have in the motion within the band, root mean square,
+    /// relative to the responses; `None` if it is not known.
     pub left_out: Option<f64>,
 }
 

@@ -31,8 +31,8 @@ pub fn less_accurate(error: f64, aim: f64) -> Option<Note> {
     (error > aim).then(|| Note { topic: "accuracy", text: text() })
 }
 
-/// A bound of the relative error (root mean square) of responses in the first `seconds` (s), see [`physics::response_error()`]; `None` for those
-/// that are not computed from modes, and with loads.
+/// A bound of the relative error (root mean square) of responses in the first `seconds` (s), see [`physics::response_error()`]; `None` for
+/// those that are not computed from modes, and with loads.
 pub fn response_error(responses: &Responses, seconds: f64) -> Option<f64> {
     let Responses::Modal(modal) = responses else { return None };
     physics::response_error(modal, seconds)

@@ -134,8 +134,8 @@ impl SparsePlate {
         Ok(changes.fold(0.0, |most, change| if change.is_nan() { f64::INFINITY } else { most.max(change) }))
     }
 
-    /// The share of bending in the elastic energy of each mode, given in cubics, 1 minus that of tension and springs, and what a loss factor
-    /// changes to second order.
+    /// The share of bending in the elastic energy of each mode, given in cubics, 1 minus that of tension and springs, and what a loss
+    /// factor changes to second order.
     fn losses(
         &self,
         inner: &[Product],
