@@ -114,7 +114,7 @@ fn films_of_complex_stiffness_decay_as_stated() {
 #[test]
 fn decay_times_from_a_table_are_as_good_as_frequencies() {
     let table = Decay::Table(vec![(100.0, 1.0), (3000.0, 0.01)]);
-    let meshed = circle(false, Edge::Clamped, table.clone());
+    let meshed = circle(false, Edge::Clamped, table);
     let exact: Vec<f64> = frequencies(&meshed.sheet, RADIUS, Edge::Clamped, 2000.0)
         .iter()
         .map(|hz| 1.0 - 0.99 * (hz - 100.0) / 2900.0)
