@@ -111,3 +111,30 @@ fn what_is_out_of_reach_is_had_with_its_error_unless_it_was_asked_for() {
     // With an accuracy that can be had nothing is remarked.
     assert_eq!(about_accuracy(&json(&["modes", &file, "--accuracy", "0.01"])), "");
 }
+
+/// A finer accuracy has smaller errors of decay times and responses too, and a finger on the sheet leaves those of responses unknown.
+#[test]
+fn errors_of_decay_times_and_responses_are_stated() {
+    let folder = Scratch::new("stated");
+    let file = folder.path().join("hexagon.toml");
+    fs::write(&file, HEXAGON.replace("decay_time_ms = 70", "loss_factor = 0.02")).unwrap();
+    let (file, out) = (file.display().to_string(), folder.path().join("out").display().to_string());
+    let stated = |accuracy: &str| {
+        let modes = json(&["modes", &file, "--accuracy", accuracy]);
+        let of_decay: Vec<f64> =
+            modes["decay_errors"].as_array().unwrap().iter().map(|error| error.as_f64().unwrap()).collect();
+        assert_eq!(Some(of_decay.len() as u64), modes["count"].as_u64());
+        let library = folder.path().join(accuracy).display().to_string();
+        let made = json(&["respond", &file, "--grid-mm", "40", "--accuracy", accuracy, "-o", &library]);
+        assert!(number(&made, "/left_out") > 0.0);
+        let focus = ["focus", &file, "--at", "60,50", "-o", &out, "--no-figures", "--accuracy", accuracy];
+        let focused = number(&json(&focus), "/response_error");
+        assert!(focused > 0.0 && focused < 3.0, "{focused}");
+        let touched = json(&[&focus[..], &["--finger", "60,50"]].concat());
+        assert_eq!(touched.get("response_error"), None);
+        (of_decay.into_iter().fold(0.0, f64::max), number(&made, "/response_error"))
+    };
+    let (coarse, fine) = (stated("1e-3"), stated("1e-5"));
+    assert!(0.0 < fine.0 && fine.0 < coarse.0 && coarse.0 < 0.1, "{coarse:?} {fine:?}");
+    assert!(0.0 < fine.1 && fine.1 < coarse.1, "{coarse:?} {fine:?}");
+}
