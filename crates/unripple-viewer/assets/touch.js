@@ -4,6 +4,10 @@ import { Hints } from './hints.js';
 import { fieldValue, place } from './units.js';
 
 const KEY_FINGER = 20;
+
+// The server lifts a finger of which it hears nothing for 30 s.
+const HELD_MS = 5000;
+
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /** Turns what happens on the maps into touch messages. */
@@ -26,6 +30,7 @@ export class Touch {
     stage.held = () => this.places();
     for (const map of stage.maps) this.#listen(map);
     const all = () => this.releaseAll();
+    setInterval(() => this.#sayHeld(), HELD_MS);
     addEventListener('blur', all);
     addEventListener('pagehide', all);
     document.addEventListener('visibilitychange', () => document.hidden && all());
@@ -191,6 +196,13 @@ export class Touch {
       this.#sending = false;
       this.#flush();
     });
+  }
+
+  /** Says which fingers rest, so that none is left on the surface when this page comes to a standstill. */
+  #sayHeld() {
+    if (!this.app.link.open) return;
+    for (const { finger, mm, down } of this.#pointers.values()) if (down) this.#send(finger, 'move', mm);
+    if (this.#keyHeld) this.#send(KEY_FINGER, 'move', this.stage.cursor);
   }
 
   #flush() {

@@ -2,12 +2,16 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { setTimeout } from 'node:timers/promises';
 import { apart, largest, passed, scrub, slow, strongest, whenTouched } from './field.mjs';
 import { last, open, pixel, press, shoot, told, unharmed } from './page.mjs';
 import { serve } from './program.mjs';
 
 const PLACE = [62, 90];
 const FIVE = [[30, 110], [62, 90], [75, 40], [110, 60], [118, 118]];
+
+/** How long a quick press with a mouse takes, in ms. */
+const TAP_MS = 150;
 
 /** A touch waits for a block of the surface to begin, its picture for the next: at most so long, in s. */
 const BLOCKS = 4e-3;
@@ -116,4 +120,24 @@ test('fingers', async (t) => {
     await told(page, 'status', (status) => status.fingers.length === 0);
     unharmed(page);
   });
+});
+
+test('a tap in slow motion has its focus', async (t) => {
+  const { url } = await serve(t, 'hudin-2012');
+  const page = await open(t, url);
+  await page.locator('#stops button').getByText('1/200', { exact: true }).click();
+  await told(page, 'settings', ({ speed }) => Math.abs(200 * speed - 1) < 1e-6);
+  const touch = await whenTouched(page);
+  const lift = await press(page, PLACE);
+  await setTimeout(TAP_MS);
+  await lift();
+  const { before, instants: [focus] } = await focuses(page, await touch(), [PLACE]);
+  const found = await largest(page);
+  await shoot(page, 'tap');
+  t.diagnostic(`largest at ${found.at_mm.map((mm) => mm.toFixed(1))} mm, ${focus.toFixed(4)} s`);
+  assert.ok(apart(found.at_mm, PLACE) <= 3, `the field is largest at ${found.at_mm} mm`);
+  assert.ok(found.peak > 2 * before.peak, `${found.peak} m at the focus, ${before.peak} m before it`);
+  await goOn(page);
+  await told(page, 'status', ({ fingers }) => fingers.length === 0);
+  unharmed(page);
 });

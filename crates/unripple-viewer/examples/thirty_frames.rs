@@ -50,23 +50,16 @@ fn main() -> Result<(), Fault> {
     });
     let url = address.recv()?;
     let address: SocketAddr = url.trim_start_matches("http://").trim_end_matches('/').parse()?;
-    let mut finger = join(address)?;
-    finger.send(Message::text(r#"{"do":"transport","speed":1}"#))?;
-    for i in 0..5 {
-        let place = [30.0 + 20.0 * f64::from(i), 40.0 + 13.0 * f64::from(i)];
-        let text =
-            format!(r#"{{"do":"touch","finger":{i},"phase":"down","at_mm":[{},{}]}}"#, place[0], place[1]);
-        finger.send(Message::text(text))?;
-    }
     let [least, median, bytes, core, pace] =
         ["frames/s least", "frames/s median", "kB/s for a page", "of one core", "of real time"];
     println!("{:<34}{least:>14}{median:>16}{bytes:>16}{core:>14}{pace:>14}", "");
     for (name, pages, mutes) in
         [("one page", 1, 0), ("ten pages", 10, 0), ("nine pages and one that is mute", 9, 1)]
     {
+        let fingers = press(address)?;
         measure(name, address, seconds, [pages, mutes])?;
+        drop(fingers);
     }
-    drop(finger);
     done.send(())?;
     server.join().map_err(|_| "the server panicked")?
 }
@@ -88,6 +81,19 @@ fn view() -> View {
         folder: ".".into(),
         quiet: false,
     }
+}
+
+/// Presses five places, for as long as a page is thought to be there that says nothing more.
+fn press(address: SocketAddr) -> Result<WebSocket<TcpStream>, Fault> {
+    let mut page = join(address)?;
+    page.send(Message::text(r#"{"do":"transport","speed":1}"#))?;
+    for i in 0..5 {
+        let place = [30.0 + 20.0 * f64::from(i), 40.0 + 13.0 * f64::from(i)];
+        let text =
+            format!(r#"{{"do":"touch","finger":{i},"phase":"down","at_mm":[{},{}]}}"#, place[0], place[1]);
+        page.send(Message::text(text))?;
+    }
+    Ok(page)
 }
 
 /// Runs so many pages, and prints what they got and what that cost.

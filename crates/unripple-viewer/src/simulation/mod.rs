@@ -4,6 +4,7 @@ mod instrument;
 mod lens;
 mod look;
 mod messages;
+mod page_fingers;
 mod page_touches;
 mod past;
 mod playback;
@@ -23,6 +24,7 @@ pub use transport::Transport;
 
 use crate::outbox::Outbox;
 use crate::wire;
+use page_fingers::{FINGERS, PageFingers, SHOWN};
 use playback::{Known, Playback, step};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -35,9 +37,6 @@ const PACED: f64 = 1.0;
 
 /// Longest step of the page's time that the surface takes at once, in s: after a sleep of this machine it goes on from where it was.
 const STEP: f64 = 0.25;
-
-/// Fingers of pages that no instrument has numbered yet are numbered from that of their page times this.
-const FINGERS: u64 = 1000;
 
 /// Probes at once; with two fingers they fill the traces of a picture.
 const MOST_PROBES: usize = 6;
@@ -79,10 +78,8 @@ pub struct Simulation {
     given: u32,
     replay: Option<Box<Replay>>,
     known: Known,
-    /// Fingers of pages that are down, by page and number; the next instrument gets them too. And whether the present one has yet to be
-    /// sent them.
-    pressed: BTreeMap<(u64, u32), Point>,
-    moved: bool,
+    /// Fingers of pages that are down; the next instrument gets them too.
+    fingers: PageFingers,
     /// Places focused on last, and what they read of the modes.
     targets: BTreeMap<u64, (Point, Vec<f32>)>,
     frame: u64,
@@ -110,6 +107,8 @@ impl Drop for Simulation {
 impl Simulation {
     /// A simulation that plays an instrument.
     pub fn new(instrument: Instrument) -> Self {
+        let mut fingers = PageFingers::default();
+        fingers.renew(hold(&instrument));
         Self {
             instrument,
             transport: Transport::default(),
@@ -118,8 +117,7 @@ impl Simulation {
             given: 0,
             replay: None,
             known: Known::default(),
-            pressed: BTreeMap::new(),
-            moved: false,
+            fingers,
             targets: BTreeMap::new(),
             frame: 0,
             before: 0.0,
@@ -148,6 +146,7 @@ impl Simulation {
         self.viewers = viewers;
         self.untold += seconds;
         self.pace.0 += seconds;
+        self.fingers.wait(seconds.min(STEP));
         self.pass(seconds.min(STEP), more);
         self.show(out);
         if self.untold >= TOLD {
@@ -165,16 +164,15 @@ impl Simulation {
         self.changed = true;
         match order {
             Order::Touch(finger, phase, at) => {
-                match phase {
-                    wire::Phase::Up => drop(self.pressed.remove(&finger)),
-                    wire::Phase::Down | wire::Phase::Move => drop(self.pressed.insert(finger, at)),
+                if phase == wire::Phase::Down {
+                    self.hasten();
                 }
-                self.moved = true;
+                let now = self.present();
+                self.fingers.touch(finger, phase, at, now);
                 self.press();
             }
             Order::Leave(page) => {
-                self.pressed.retain(|(whose, _), _| *whose != page);
-                self.moved = true;
+                self.fingers.leave(page);
                 self.press();
             }
             Order::Transport(asked) => {
@@ -212,12 +210,33 @@ impl Simulation {
 
     /// Sends the instrument the fingers that are down, if they have changed; not while time is paused.
     fn press(&mut self) {
-        let stands = self.transport.paused && matches!(self.instrument.playback, Playback::Here(_));
-        if self.moved && !stands {
+        let hears = match &mut self.instrument.playback {
+            Playback::Here(_) if self.transport.paused => return,
+            Playback::Here(engine) => engine.stage().time(),
+            // A real surface hears of every lift at once.
+            Playback::Away(_) => f64::NEG_INFINITY,
+        };
+        if let Some(pressed) = self.fingers.take(hears) {
             // An instrument at its end needs to know no more.
-            let _ = self.instrument.page_touches.send(self.pressed.clone());
-            self.moved = false;
+            let _ = self.instrument.page_touches.send(pressed);
         }
+    }
+
+    /// Shows the present, for a press, and in slow motion goes on to the block in which the surface hears of it: the rest of the block
+    /// before would take seconds.
+    fn hasten(&mut self) {
+        if self.transport.paused || self.replay.is_some() {
+            return;
+        }
+        if let Playback::Here(engine) = &mut self.instrument.playback {
+            self.transport.hasten(engine.stage().time());
+        }
+    }
+
+    /// Present time of the live surface, in s.
+    fn present(&self) -> f64 {
+        // What is recorded has a clock of its own.
+        if self.replay.is_some() { self.head() } else { self.transport.now }
     }
 
     /// Plays another instrument, at the same pace and with the same fingers.
@@ -232,7 +251,7 @@ impl Simulation {
         self.before = 0.0;
         self.wrong = None;
         self.targets.clear();
-        self.moved = !self.pressed.is_empty();
+        self.fingers.renew(hold(&self.instrument));
         self.press();
         let plant = &self.instrument.plant;
         for probe in &mut self.probes {
@@ -259,6 +278,7 @@ impl Simulation {
 
     /// Lets time pass.
     fn pass(&mut self, seconds: f64, more: &mut dyn FnMut() -> bool) {
+        self.fingers.settle(self.present());
         self.press();
         let (oldest, _) = self.remembered();
         if let Some(replay) = &self.replay {
@@ -284,8 +304,8 @@ impl Simulation {
     /// Fingers of pages that are on the sheet.
     fn resting(&self) -> Vec<(u64, Point)> {
         let outline = &self.instrument.spec.surface.outline;
-        let here = self.pressed.iter().filter(|(_, at)| outline.contains(**at));
-        here.map(|((page, finger), at)| (page * FINGERS + u64::from(*finger), *at)).collect()
+        let here = self.fingers.places().filter(|(_, at)| outline.contains(*at));
+        here.map(|((page, finger), at)| (page * FINGERS + u64::from(finger), at)).collect()
     }
 
     /// Steps the surface up to the present of its clock; if there is not enough time for that, the clock falls behind.
@@ -336,5 +356,13 @@ impl Simulation {
             (oldest / rate, history.stride() as f64 / rate)
         });
         span.unwrap_or((0.0, 1.0 / rate))
+    }
+}
+
+/// How long a press stays on a surface at least, in s of its clock: until its focus has been shown. A real surface does not wait.
+fn hold(instrument: &Instrument) -> f64 {
+    match instrument.playback {
+        Playback::Here(_) => instrument.window.seconds + SHOWN,
+        Playback::Away(_) => 0.0,
     }
 }

@@ -117,3 +117,70 @@ fn without_a_scale_the_limit_alone_sets_the_level() {
     assert!(unknown.level.full.is_none());
     assert!(unknown.level.to_string().ends_with("its displacement is unknown"), "{}", unknown.level);
 }
+
+/// The time between two, in s, at which a place has moved most, as far as states are remembered.
+fn strongest(simulation: &Simulation, at: Point, [from, to]: [f64; 2]) -> f64 {
+    let Instrument { plant, handle, .. } = &simulation.instrument;
+    let (weights, rate) = (lens::weights(plant, &[at]), simulation.instrument.rate());
+    let found = handle.history(|history| {
+        let past = past::Past { history, rate, velocity: false };
+        let newest = past.back(to);
+        let trace = past.trace(&weights, newest, past.back(from) - newest + 1);
+        let most = (0..trace.len()).max_by(|a, b| trace[*a].abs().total_cmp(&trace[*b].abs())).unwrap();
+        let back = newest + trace.len() - 1 - most;
+        (history.newest() as f64 - (back * history.stride()) as f64) / rate
+    });
+    found.unwrap()
+}
+
+/// At the slowest speed 0.15 s of the page are a tenth of a block of the surface.
+#[test]
+fn a_tap_is_answered_at_once_and_its_focus_seen_at_every_speed() {
+    let at = Point::from_mm(62.0, 90.0);
+    let (mut simulation, _) = running();
+    let mut out = Outbox::default();
+    let pass = |simulation: &mut Simulation, seconds: f64| {
+        simulation.advance(seconds, 0, &mut || true, &mut Outbox::default());
+        simulation.known.fingers.len()
+    };
+    for speed in [1.0, 1.0 / 200.0, 1.0 / 2000.0] {
+        let slow = wire::Transport { speed: Some(speed), ..wire::Transport::default() };
+        simulation.obey(Order::Transport(slow), &mut out);
+        pass(&mut simulation, 0.25);
+        let before = simulation.head();
+        simulation.obey(Order::Touch((1, 0), wire::Phase::Down, at), &mut out);
+        assert_eq!(pass(&mut simulation, 0.03), 1, "{speed}: nothing is pressed");
+        assert!(simulation.head() > before, "{speed}: the surface waits");
+        pass(&mut simulation, 0.12);
+        simulation.obey(Order::Touch((1, 0), wire::Phase::Up, at), &mut out);
+        let focus = before + simulation.instrument.window.seconds;
+        let mut parts = 0;
+        while pass(&mut simulation, 0.25) > 0 {
+            parts += 1;
+            assert!(parts < 4000, "{speed}: the finger stays");
+        }
+        assert!(simulation.transport.shown() >= focus, "{speed}: the finger goes before its focus");
+        let found = strongest(&simulation, at, [before, focus + SHOWN]);
+        assert!((found - focus).abs() < 1e-3, "{speed}: most at {found} s instead of {focus} s");
+    }
+}
+
+#[test]
+fn a_tap_while_time_stands_still_is_played_when_it_goes_on() {
+    let (mut simulation, _) = running();
+    let mut out = Outbox::default();
+    let paused =
+        |paused| Order::Transport(wire::Transport { paused: Some(paused), ..wire::Transport::default() });
+    simulation.obey(paused(true), &mut out);
+    for phase in [wire::Phase::Down, wire::Phase::Up] {
+        simulation.obey(Order::Touch((1, 0), phase, Point::from_mm(62.0, 90.0)), &mut out);
+    }
+    simulation.advance(0.1, 1, &mut || true, &mut out);
+    assert_eq!(simulation.known.fingers.len(), 1);
+    simulation.obey(paused(false), &mut out);
+    let begun = simulation.known.tally.started;
+    for _ in 0..10 {
+        simulation.advance(0.1, 1, &mut || true, &mut out);
+    }
+    assert!(simulation.known.fingers.is_empty() && simulation.known.tally.started > begun);
+}

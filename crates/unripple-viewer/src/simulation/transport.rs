@@ -77,6 +77,14 @@ impl Transport {
         self.settle(oldest);
     }
 
+    /// Shows the present again, and in slow motion goes on to a later instant (s) at once.
+    pub fn hasten(&mut self, to: f64) {
+        self.back = None;
+        if self.speed < 1.0 {
+            self.now = self.now.max(to);
+        }
+    }
+
     /// Sets the present to the clock (s) of a real device, which cannot be slowed, while `seconds` of the page's time pass. In slow motion
     /// the instant that is shown falls behind, at most to `oldest` (s).
     pub fn follow(&mut self, clock: f64, seconds: f64, oldest: f64) {
