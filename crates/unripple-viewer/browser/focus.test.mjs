@@ -125,7 +125,7 @@ test('fingers', async (t) => {
 test('a tap in slow motion has its focus', async (t) => {
   const { url } = await serve(t, 'hudin-2012');
   const page = await open(t, url);
-  await page.locator('#stops button').getByText('1/200', { exact: true }).click();
+  await page.locator('#stops').getByRole('button', { name: '1/200', exact: true }).click();
   await told(page, 'settings', ({ speed }) => Math.abs(200 * speed - 1) < 1e-6);
   const touch = await whenTouched(page);
   const lift = await press(page, PLACE);

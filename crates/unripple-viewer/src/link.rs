@@ -27,9 +27,10 @@ const STUCK: Duration = Duration::from_secs(20);
 const ASKED: Duration = Duration::from_secs(5);
 const UNANSWERED: u32 = 4;
 
-/// Largest number of messages per second; of fingers' moves and lifts among more, of which the former are dropped: ten times as many,
-/// as no hands make; of refusals before the link is closed, and of refusals that may wait to be sent.
+/// Largest number of messages per second beside moves of fingers; of moves, which ten fingers make on a screen of 120 Hz, and of which more
+/// are dropped; of all messages: as no hands make; of refusals before the link is closed, and of refusals that may wait to be sent.
 const FASTEST: u32 = 600;
+const MOVES: u32 = 1200;
 const MOST: u32 = 10 * FASTEST;
 const BORNE: u32 = 50;
 const WAITING: usize = 32;
@@ -53,7 +54,7 @@ pub async fn serve(mut socket: WebSocket, host: Arc<SessionHost>) {
         last: Instant::now(),
         refused: 0,
         unanswered: 0,
-        second: (Instant::now(), 0),
+        second: Second::now(),
     };
     link.talk(&mut socket).await;
     link.host.leave(page);
@@ -74,8 +75,21 @@ struct Link {
     refused: u32,
     /// Questions since the page said something.
     unanswered: u32,
-    /// The second under way, and messages in it.
-    second: (Instant, u32),
+    second: Second,
+}
+
+/// The second under way, and the messages in it: all, moves of fingers, and requests.
+struct Second {
+    began: Instant,
+    all: u32,
+    moves: u32,
+    requests: u32,
+}
+
+impl Second {
+    fn now() -> Self {
+        Self { began: Instant::now(), all: 0, moves: 0, requests: 0 }
+    }
 }
 
 impl Link {
@@ -142,21 +156,31 @@ impl Link {
             Message::Close(_) => return false,
             Message::Ping(_) | Message::Pong(_) => return true,
         };
-        if self.second.0.elapsed() >= Duration::from_secs(1) {
-            self.second = (Instant::now(), 0);
+        if self.second.began.elapsed() >= Duration::from_secs(1) {
+            self.second = Second::now();
         }
-        self.second.1 += 1;
-        if self.second.1 > MOST {
+        self.second.all += 1;
+        if self.second.all > MOST {
             return self.refuse_haste();
         }
         match Command::read(&text) {
             Ok(Command::Seen { frame }) => self.seen = self.seen.max(frame.min(self.shown)),
-            Ok(command) if self.second.1 <= FASTEST => self.host.obey(self.page, command),
+            Ok(command @ Command::Touch { phase: Phase::Move, .. }) => {
+                self.second.moves += 1;
+                // Another move follows, or a lift, which says where it was.
+                if self.second.moves <= MOVES {
+                    self.host.obey(self.page, command);
+                }
+            }
             // A finger whose lift is lost would stay.
             Ok(lift @ Command::Touch { phase: Phase::Up, .. }) => self.host.obey(self.page, lift),
-            // Another move follows, or a lift, which says where it was.
-            Ok(Command::Touch { phase: Phase::Move, .. }) => {}
-            Ok(_) => return self.refuse_haste(),
+            Ok(command) => {
+                self.second.requests += 1;
+                if self.second.requests > FASTEST {
+                    return self.refuse_haste();
+                }
+                self.host.obey(self.page, command);
+            }
             Err(error) => return self.refuse(&error.to_string()),
         }
         true

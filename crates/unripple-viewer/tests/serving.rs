@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Served, status, until};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 use tungstenite::Message;
 use unripple::core::Random;
@@ -173,4 +173,35 @@ fn a_finger_is_lifted_however_fast_its_page_talks() {
     std::thread::sleep(Duration::from_secs(1));
     hasty.send(touch("down", 40.0)).unwrap();
     wait(1);
+}
+
+/// What a page hears, up to an answer, must hold no fault.
+#[test]
+fn six_fingers_on_a_fast_screen_keep_no_request_from_being_heard() {
+    let served = Served::new(None);
+    let mut page = served.page();
+    let touch = |finger: u32, phase: &str, x: u32| {
+        let at_mm = [30 + x % 60, 20 + 20 * finger];
+        let command = json!({ "do": "touch", "finger": finger, "phase": phase, "at_mm": at_mm });
+        Message::text(command.to_string())
+    };
+    (0..6).for_each(|finger| page.send(touch(finger, "down", 0)).unwrap());
+    // A second of moves at 120 Hz, and a request after it.
+    for x in 0..120 {
+        (0..6).for_each(|finger| page.send(touch(finger, "move", x)).unwrap());
+    }
+    page.send(Message::text(r#"{"do":"stop","id":9}"#)).unwrap();
+    loop {
+        let Message::Text(text) = page.read().unwrap() else { continue };
+        let message: Value = serde_json::from_str(&text).unwrap();
+        assert_ne!(message["is"], "fault", "{message}");
+        if message["is"] == "stopped" {
+            break;
+        }
+    }
+    (0..6).for_each(|finger| page.send(touch(finger, "up", 0)).unwrap());
+    let began = Instant::now();
+    while !until(&mut page, "status")["fingers"].as_array().unwrap().is_empty() {
+        assert!(began.elapsed() < Duration::from_secs(20));
+    }
 }
