@@ -28,7 +28,7 @@ const state = createState((kind, error) => toast(`A part of the page failed at â
 const cost = new Cost();
 const recall = new Recall(state);
 const tabs = new Tabs(state);
-/** Answers go to all pages: no two should give the same number. */
+/** Files are fetched, and comparisons shown to all pages, by these numbers: no two should give the same. */
 let ids = Math.floor(Math.random() * 2 ** 48);
 /** A request about the surface names the edit of it that is shown here. */
 const ABOUT = new Set(['measure', 'compare']);

@@ -148,7 +148,7 @@ export function mount(root, app) {
     setText(code, message.command ?? '');
     notes.replaceChildren(...(message.report?.notes ?? []).map((note) => el('li', { text: `${note.topic}: ${note.text}` })));
     drawn.draw(message);
-    // Others are shown what somebody has measured; what was asked for here still comes.
+    // A story of this page measures too; what was asked for here still comes.
     if (asked === null || asked === message.id) busy(null, `Measured in ${seconds(message.seconds)}.`);
   });
   app.state.subscribe('stopped', ({ id }) => id === asked && over('Stopped.'));

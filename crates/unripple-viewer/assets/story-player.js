@@ -187,9 +187,8 @@ export class StoryPlayer {
   }
 
   compared(message) {
-    if (!this.story || !this.scene.compared || (message.panes ?? []).length < 2) return;
-    const methods = message.panes.map(({ method }) => method);
-    if (methods.join() !== this.scene.compared.join()) return;
+    // What another page compares is shown to all.
+    if (!this.story || !this.scene.compared || message.id !== this.scene.comparing || (message.panes ?? []).length < 2) return;
     if (message === this.facts.compared) return;
     this.facts.compared = message;
     this.moment.pin(message);

@@ -11,7 +11,7 @@ use crate::simulation::{Instrument, Spec};
 use crate::stop::Stop;
 use crate::wire::Command;
 use crate::{View, ViewError};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
@@ -42,6 +42,9 @@ enum Word {
     Stop,
 }
 
+/// Files of measurements that are kept: the newest of each of so many pages. A long drive takes some megabytes.
+const KEPT: usize = 16;
+
 /// The links of pages, by number, for answers to one page alone.
 type Links = Arc<Mutex<BTreeMap<u64, tokio::sync::mpsc::Sender<String>>>>;
 
@@ -52,7 +55,7 @@ pub struct SessionHost {
     words: Sender<Word>,
     links: Links,
     jobs: Arc<Jobs>,
-    measured: Arc<Mutex<Option<Measured>>>,
+    measured: Arc<Mutex<VecDeque<Measured>>>,
     /// The thread that runs the session and plays the surface.
     playing: Mutex<Option<JoinHandle<()>>>,
     quiet: bool,
@@ -91,7 +94,7 @@ impl SessionHost {
             }
         })?;
         let (notices, links) = (Arc::new(Notices::new()), Links::default());
-        let measured = Arc::new(Mutex::new(None));
+        let measured = Arc::new(Mutex::new(VecDeque::new()));
         let jobs = Arc::new(Jobs::new(notices.clone(), view.folder.clone()));
         let mut stage = Stage {
             session,
@@ -146,9 +149,11 @@ impl SessionHost {
         toml(&self.notices)
     }
 
-    /// Files of the newest measurement that a page has requested: a focus, computed and evaluated.
-    pub fn measured(&self) -> Option<Measured> {
-        lock(&self.measured).clone()
+    /// Files of the newest measurement that any page has requested, or of the newest of each page that with a page's own number
+    /// for it: a focus, computed and evaluated.
+    pub fn measured(&self, id: Option<&str>) -> Option<Measured> {
+        let named = |measured: &&Measured| id.is_none_or(|id| id == measured.id.to_string());
+        lock(&self.measured).iter().rev().find(named).cloned()
     }
 
     /// Prints a line on standard error, unless the viewer is quiet.
@@ -189,8 +194,21 @@ fn refuse(links: &Links, page: u64, why: &str) {
 
 /// Answers one page, unless so much waits to be told that it would be no use.
 fn answer(links: &Links, page: u64, message: &serde_json::Value) {
+    say(links, page, message.to_string());
+}
+
+fn say(links: &Links, page: u64, text: String) {
     if let Some(told) = lock(links).get(&page) {
-        let _ = told.try_send(message.to_string());
+        let _ = told.try_send(text);
+    }
+}
+
+/// Keeps a measurement in place of the last one of its page.
+fn keep(kept: &mut VecDeque<Measured>, files: Measured) {
+    kept.retain(|measured| measured.page != files.page);
+    kept.push_back(files);
+    if kept.len() > KEPT {
+        kept.pop_front();
     }
 }
 
@@ -201,7 +219,7 @@ struct Stage {
     computing: Sender<(Task, Stop)>,
     notices: Arc<Notices>,
     links: Links,
-    measured: Arc<Mutex<Option<Measured>>>,
+    measured: Arc<Mutex<VecDeque<Measured>>>,
     jobs: Arc<Jobs>,
 }
 
@@ -278,7 +296,8 @@ impl Stage {
                 Out::Stopped(page, id) => {
                     answer(&self.links, page, &serde_json::json!({ "is": "stopped", "id": id }));
                 }
-                Out::Measured(files) => *lock(&self.measured) = Some(*files),
+                Out::Answer(page, text) => say(&self.links, page, text),
+                Out::Measured(files) => keep(&mut lock(&self.measured), *files),
             }
         }
     }

@@ -2,9 +2,11 @@
 
 use serde::Serialize;
 
-/// Files of the newest measurement that a page has requested: a focus, computed and evaluated.
+/// Files of a measurement that a page has requested: a focus, computed and evaluated.
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
+    /// Number of the page that requested it.
+    pub page: u64,
     /// The page's own number for the request.
     pub id: u64,
     /// Bytes of the file `drive.wav`.
@@ -28,6 +30,8 @@ pub enum Out {
     Refuse(u64, String),
     /// Number of a page, and the page's own number for a request whose computation was cancelled.
     Stopped(u64, u64),
+    /// Number of a page, and the JSON text that answers it alone.
+    Answer(u64, String),
     /// Files of a focus that was computed on a page's request.
     Measured(Box<Measured>),
 }

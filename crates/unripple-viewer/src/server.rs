@@ -152,16 +152,16 @@ async fn load(State(desk): State<Desk>, request: Request) -> Response {
     }
 }
 
-/// Files of the newest measurement; if the request gives a number, only those of the measurement with that number.
+/// Files of a measurement: that with the number in the request, if it is the newest of its page, or the newest of all.
 async fn measured(State(desk): State<Desk>, Path(name): Path<String>, uri: Uri) -> Response {
-    let Some(measured) = desk.host.measured() else {
-        return (StatusCode::NOT_FOUND, "nothing has been measured yet\n").into_response();
-    };
     let wanted = uri.query().unwrap_or_default().split('&').find_map(|pair| pair.strip_prefix("id="));
-    if wanted.is_some_and(|id| id != measured.id.to_string()) {
-        let why = "something else has been measured since: measure again\n";
+    let Some(measured) = desk.host.measured(wanted) else {
+        let why = match desk.host.measured(None) {
+            None => "nothing has been measured yet\n",
+            Some(_) => "something else has been measured since: measure again\n",
+        };
         return (StatusCode::NOT_FOUND, why).into_response();
-    }
+    };
     match name.as_str() {
         "drive.wav" => download(measured.drive, "audio/wav", "drive.wav"),
         "report.json" => download(measured.json.into_bytes(), "application/json", "report.json"),

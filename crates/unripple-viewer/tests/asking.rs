@@ -152,6 +152,20 @@ fn a_file_and_the_way_back_are_editions_too() {
 }
 
 #[test]
+fn what_a_page_measures_is_told_to_it_alone_and_kept_for_it() {
+    let served = Served::new(None);
+    let (mut one, mut other) = (served.page(), served.page());
+    until(&mut one, "surface");
+    say(&mut one, json!({ "do": "measure", "id": 1, "at": [[62, 90]] }));
+    measured(&mut one, 1);
+    say(&mut other, json!({ "do": "measure", "id": 2, "at": [[40, 50]] }));
+    assert_eq!(until(&mut other, "measured")["id"], 2);
+    for id in [1, 2] {
+        assert_eq!(common::status(&served.get(&format!("/drive.wav?id={id}"), "")), 200, "{id}");
+    }
+}
+
+#[test]
 fn files_are_those_of_the_act_that_is_named() {
     let served = Served::new(None);
     let mut page = served.page();

@@ -169,7 +169,7 @@ impl Program {
             Task::View => {
                 self.fetch()?;
                 link.until("the surface", soon, |told| told["is"] == "surface")?;
-                // A page that comes is told of the last measurement, whoever asked for it.
+                // Each measurement has a number of its own, whoever asks for it.
                 self.asked += 1;
                 let id = self.asked;
                 link.say(&json!({ "do": "measure", "id": id, "at": [[62, 90]] }));

@@ -1,6 +1,6 @@
 //! Computation and evaluation of a focus, with every figure that the command line has.
 
-use super::{ComputeWorker, Found, Hear, Unfinished, given, method, options, places, tell};
+use super::{ComputeWorker, Found, Hear, Unfinished, given, method, options, places};
 use crate::edition::Edition;
 use crate::outbox::{Measured, Out};
 use crate::spectrum::spectrum;
@@ -20,10 +20,10 @@ use unripple_tasks::{Progress, Record, SurfaceAsk, TaskError, focus, folder};
 const DRAWN: usize = 480;
 
 impl ComputeWorker {
-    /// Computes and evaluates a focus, and sends all figures of it.
+    /// Computes and evaluates a focus, and sends all figures of it to the page that requested it.
     pub(super) fn measure(
         &mut self,
-        measure: &Measure,
+        (measure, page): (&Measure, u64),
         of: &Arc<Edition>,
         progress: &mut dyn Progress,
         hear: &mut Hear,
@@ -70,9 +70,9 @@ impl ComputeWorker {
         };
         let json = json.map_err(|error| error.to_string())?;
         let wav = encode_wav(&acted.drive).map_err(|error| error.to_string())?;
-        let files = Measured { id: measure.id, drive: wav, json, markdown: report.markdown() };
+        let files = Measured { page, id: measure.id, drive: wav, json, markdown: report.markdown() };
         hear(Found::Out(Out::Measured(Box::new(files))));
-        tell(hear, "measured", &message);
+        hear(Found::Out(Out::Answer(page, message.to_string())));
         Ok(())
     }
 }

@@ -104,7 +104,7 @@ impl ComputeWorker {
                 self.design(&edition, progress, hear);
                 Ok(())
             }
-            Task::Measure { measure, of, .. } => self.measure(&measure, &of, progress, hear),
+            Task::Measure { measure, of, page } => self.measure((&measure, page), &of, progress, hear),
             Task::Compare { id, at, methods, window_ms, of, .. } => {
                 let window = given(window_ms).map(|ms| ms * 1e-3);
                 self.compare(&at, &methods, window, (&of, id), progress, hear)
@@ -300,7 +300,7 @@ mod tests {
         assert_eq!(looks.count.get(), 10);
         // A surface that was edited has modes, while the library still gives no answer.
         let heard = measured(&mut worker, (1, small()), None, &mut Silent);
-        assert!(matches!(heard[..], [Out::Measured(_), Out::Text(..)]), "{heard:?}");
+        assert!(matches!(heard[..], [Out::Measured(_), Out::Answer(7, _)]), "{heard:?}");
         released.store(true, Ordering::Relaxed);
     }
 
