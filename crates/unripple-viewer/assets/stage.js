@@ -14,6 +14,11 @@ const CALM_MS = 500;
 const NOTICED_MS = 100;
 const GROUNDS = { dark: '#151a21', light: '#ffffff' };
 
+/** Whether a picture that waits to be painted is worth more than a newer one: of the strongest instants of real time the stronger. */
+function outdoes(waiting, newer) {
+  return Boolean(waiting?.strobed && newer.strobed && waiting.time_s <= newer.time_s && waiting.peak > newer.peak);
+}
+
 /** Everything that is shown of the field. Serves as `app.map` and as the scene of its panes. */
 export class Stage {
   layers = [];
@@ -137,10 +142,10 @@ export class Stage {
     return { columns, rows, values, time_s: head.time_s, quantity: head.quantity, at_mm };
   }
 
-  /** Takes a frame; it is painted with the next animation frame unless a newer one comes first. */
+  /** Takes a frame; it is painted with the next animation frame unless a better one comes first. */
   take(frame) {
     if (frame.pane > 1) return;
-    this.#fresh.set(frame.pane, frame);
+    if (!outdoes(this.#fresh.get(frame.pane)?.head, frame.head)) this.#fresh.set(frame.pane, frame);
     const wait = this.#calmUntil - performance.now();
     if (wait <= 0) this.redraw();
     else if (this.#calmTimer === null) this.#calmTimer = setTimeout(() => this.redraw(), wait);

@@ -288,8 +288,8 @@ impl Stage {
         for out in self.session.take() {
             match out {
                 Out::Text(kind, text) => self.notices.post(&kind, Notice::Text(text.into())),
-                Out::Frame(kind, bytes, number) => {
-                    self.notices.post(&kind, Notice::Frame(bytes.into(), number))
+                Out::Frame(kind, bytes, picture) => {
+                    self.notices.post(&kind, Notice::Frame(bytes.into(), picture))
                 }
                 Out::Withdraw(kind) => self.notices.withdraw(&kind),
                 Out::Refuse(page, why) => refuse(&self.links, page, &why),

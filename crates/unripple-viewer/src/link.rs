@@ -2,7 +2,9 @@
 
 use crate::host::SessionHost;
 use crate::notices::Notice;
+use crate::outbox::Picture;
 use crate::wire::{Command, LONGEST, Phase};
+use axum::body::Bytes;
 use axum::extract::ws::{Message, Utf8Bytes, WebSocket};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -52,6 +54,7 @@ pub async fn serve(mut socket: WebSocket, host: Arc<SessionHost>) {
         shown: 0,
         seen: 0,
         last: Instant::now(),
+        held: None,
         refused: 0,
         unanswered: 0,
         second: Second::now(),
@@ -72,6 +75,8 @@ struct Link {
     shown: u64,
     seen: u64,
     last: Instant,
+    /// The picture in which most moves of those that could not be sent since.
+    held: Option<(Bytes, Picture)>,
     refused: u32,
     /// Questions since the page said something.
     unanswered: u32,
@@ -135,8 +140,13 @@ impl Link {
                     self.texts = version;
                     Message::Text(Utf8Bytes::from(&*text))
                 }
-                Notice::Frame(bytes, frame) if version > self.frames && !waits => {
-                    (self.frames, self.shown, self.last) = (version, frame, Instant::now());
+                Notice::Frame(bytes, picture) if version > self.frames => {
+                    let (bytes, picture) = self.better(bytes, picture);
+                    if waits {
+                        self.held = Some((bytes, picture));
+                        continue;
+                    }
+                    (self.frames, self.shown, self.last) = (version, picture.number, Instant::now());
                     Message::Binary(bytes)
                 }
                 Notice::Text(_) | Notice::Frame(..) => continue,
@@ -146,6 +156,14 @@ impl Link {
             }
         }
         true
+    }
+
+    /// A picture, or the one that was held where more moves in that: a page that draws few must not miss every focus.
+    fn better(&mut self, bytes: Bytes, picture: Picture) -> (Bytes, Picture) {
+        match self.held.take() {
+            Some((held, strong)) if strong.outdoes(&picture) => (held, strong),
+            _ => (bytes, picture),
+        }
     }
 
     /// Takes in a message; `false` ends the link.

@@ -1,6 +1,7 @@
 //! Messages and pictures for all pages, from which each takes those that it has not seen.
 
 use crate::lock::lock;
+use crate::outbox::Picture;
 use axum::body::Bytes;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,8 +13,8 @@ use tokio::sync::watch;
 pub enum Notice {
     /// A message as JSON.
     Text(Arc<str>),
-    /// A picture of the field as encoded bytes, and its number.
-    Frame(Bytes, u64),
+    /// A picture of the field as encoded bytes, and what is known of it.
+    Frame(Bytes, Picture),
 }
 
 /// The newest message or picture of each kind. Each page takes those that it has not seen when it has time, so that a slow page misses some

@@ -17,13 +17,33 @@ pub struct Measured {
     pub markdown: String,
 }
 
+/// What is known of an encoded picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Picture {
+    /// Number of the picture, which rises with each picture.
+    pub number: u64,
+    /// Number of the first picture of the same clock; those before are of another one.
+    pub first: u64,
+    /// Largest motion of the places that are followed, in m or m/s, if the picture shows the strongest instant since the one before; `None`
+    /// if it shows the instant requested.
+    pub strength: Option<f32>,
+}
+
+impl Picture {
+    /// Whether this picture is worth more to a page that has time for one alone than a `newer` one: more moves in it.
+    pub fn outdoes(&self, newer: &Self) -> bool {
+        let stronger = self.strength.zip(newer.strength).is_some_and(|(old, new)| old > new);
+        stronger && self.number >= newer.first
+    }
+}
+
 /// One message of the session to pages.
 #[derive(Clone, Debug)]
 pub enum Out {
     /// Kind and JSON text for all pages, in place of the last message of that kind.
     Text(String, String),
-    /// Kind, bytes and number of a picture for all pages, in place of the last picture of that kind.
-    Frame(String, Vec<u8>, u64),
+    /// Kind and bytes of a picture for all pages, in place of the last picture of that kind, and what is known of it.
+    Frame(String, Vec<u8>, Picture),
     /// Kind of message whose last message is no longer valid.
     Withdraw(String),
     /// Number of a page, and the reason why its request is refused.
@@ -49,9 +69,9 @@ impl Outbox {
         }
     }
 
-    /// Adds a picture for all pages, with its number.
-    pub fn frame(&mut self, kind: String, bytes: Vec<u8>, number: u64) {
-        self.0.push(Out::Frame(kind, bytes, number));
+    /// Adds a picture for all pages, and what is known of it.
+    pub fn frame(&mut self, kind: String, bytes: Vec<u8>, picture: Picture) {
+        self.0.push(Out::Frame(kind, bytes, picture));
     }
 
     /// Withdraws the last message of a kind.
@@ -78,5 +98,20 @@ impl Outbox {
     /// Removes and returns all messages.
     pub fn take(&mut self) -> Vec<Out> {
         std::mem::take(&mut self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_kept_for_what_moves_in_it_on_its_own_clock_alone() {
+        let picture = |number, first, strength| Picture { number, first, strength };
+        let focus = picture(7, 3, Some(2e-5));
+        assert!(focus.outdoes(&picture(9, 3, Some(1e-6))));
+        assert!(!focus.outdoes(&picture(9, 3, Some(3e-5))));
+        assert!(!focus.outdoes(&picture(9, 8, Some(1e-6))), "of a surface that is gone");
+        assert!(!focus.outdoes(&picture(9, 3, None)), "where time stands still the newest is shown");
     }
 }

@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::lens::{product, weights};
 use super::past::Past;
-use crate::outbox::Outbox;
+use crate::outbox::{Outbox, Picture};
 use crate::wire::{Frame, Head, Resting, Strip};
 use unripple::core::Point;
 
@@ -50,7 +50,11 @@ impl Simulation {
 
     fn put(&self, kind: String, mut frame: Frame, out: &mut Outbox) {
         frame.head.frame = self.frame;
-        out.frame(kind, frame.encode(), self.frame);
+        let moved =
+            frame.traces.iter().filter_map(|trace| trace.last()).fold(0.0, |m: f32, x| m.max(x.abs()));
+        let strength = frame.head.strobed.then_some(moved);
+        let picture = Picture { number: self.frame, first: self.first, strength };
+        out.frame(kind, frame.encode(), picture);
     }
 
     /// Knows what the places under fingers read of the modes; remembers the last of each finger until others come.

@@ -77,6 +77,7 @@ impl Simulation {
         for pane in ["frame 0", "frame 1"] {
             out.withdraw(pane);
         }
+        self.first = self.frame + 1;
         self.known.fingers.clear();
         self.tell(out);
         self.tell_transport(out);

@@ -82,7 +82,9 @@ pub struct Simulation {
     fingers: PageFingers,
     /// Places focused on last, and what they read of the modes.
     targets: BTreeMap<u64, (Point, Vec<f32>)>,
+    /// Number of the newest picture, and of the first of this clock.
     frame: u64,
+    first: u64,
     /// The moment of the frame before, and whether something has changed since.
     before: f64,
     changed: bool,
@@ -120,6 +122,7 @@ impl Simulation {
             fingers,
             targets: BTreeMap::new(),
             frame: 0,
+            first: 1,
             before: 0.0,
             changed: true,
             viewers: 0,
