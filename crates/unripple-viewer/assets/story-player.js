@@ -71,6 +71,7 @@ export class StoryPlayer {
     this.facts.clear();
     this.scene.begin();
     this.node.hidden = false;
+    document.body.toggleAttribute('data-story', true);
     this.go(0);
   }
 
@@ -89,6 +90,7 @@ export class StoryPlayer {
     this.facts.leave();
     this.scene.leave();
     this.node.hidden = true;
+    document.body.toggleAttribute('data-story', false);
     this.left(story);
   }
 

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { drawn, open, shoot, unharmed } from './page.mjs';
+import { drawn, open, shoot, unharmed, until } from './page.mjs';
 import { serve } from './program.mjs';
 
 const TABS = ['Touch', 'Design', 'Compare', 'Stories', 'Rig'];
@@ -26,4 +26,25 @@ test('a page of 320 pixels never scrolls sideways', async (t) => {
     unharmed(page);
     await page.context().close();
   }
+});
+
+test('the map stays in sight while its story is read on a telephone', async (t) => {
+  const { url } = await serve(t, 'hudin-2012');
+  const page = await open(t, url, { viewport: { width: 390, height: 760 }, hasTouch: true, isMobile: true });
+  await page.getByRole('tab', { name: 'Stories' }).click();
+  await page.locator('#panel-stories article', { hasText: 'One actuator' }).getByRole('button').click();
+  const leave = page.getByRole('region', { name: 'Story' }).getByRole('button', { name: 'Leave' });
+  await leave.scrollIntoViewIfNeeded();
+  await drawn(page);
+  const seen = () => page.evaluate(() => {
+    const { top, bottom } = document.getElementById('panes').getBoundingClientRect();
+    return { top, bottom, height: innerHeight, wide: document.documentElement.scrollWidth - document.documentElement.clientWidth };
+  });
+  const { top, bottom, height, wide } = await seen();
+  await shoot(page, 'narrow-story');
+  assert.ok(top >= 0 && bottom < 0.6 * height, `the map reaches from ${top} to ${bottom} of ${height} pixels`);
+  assert.ok(wide <= 0, `${wide} pixels too wide`);
+  await leave.click();
+  await until('the page as it was', () => page.evaluate(() => getComputedStyle(document.getElementById('panes')).position === 'relative'));
+  unharmed(page);
 });
