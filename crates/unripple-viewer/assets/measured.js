@@ -2,6 +2,7 @@
 
 import { Chart } from './chart.js';
 import { el, setText } from './dom.js';
+import { chosen } from './settings.js';
 import { decibels, fieldUnit, metres, number, place, seconds, speed } from './units.js';
 
 const FIGURES = [
@@ -43,7 +44,7 @@ function form(app, begun, stop) {
     type: 'button', class: 'button primary', text: 'Measure',
     on: {
       click: () => {
-        const settings = app.state.last('settings');
+        const settings = chosen(app);
         const id = app.nextId();
         const sent = app.link.send({
           do: 'measure', id, at: places, method: settings?.method ?? 'time-reversal',

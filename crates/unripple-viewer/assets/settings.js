@@ -11,6 +11,13 @@ function field(text, unit, control) {
   return el('label', { class: 'field' }, el('span', {}, `${text} `, unit ? el('i', { text: unit }) : null), control);
 }
 
+/** The settings, with those that were chosen but are not played yet; `null` before any. */
+export function chosen(app) {
+  const settings = app.state.last('settings');
+  const { is, ...later } = app.state.last('chosen') ?? {};
+  return settings && { ...settings, ...later };
+}
+
 /** The level in words, without the option of the command line that it may end in. */
 export function levelText(level) {
   const text = (level ?? '').replace(/\s*\(--full-limit\)\s*$/, '');
@@ -22,17 +29,16 @@ function weightPart(app, send) {
   const box = el('input', { type: 'checkbox', 'aria-describedby': 'weight-note', on: { change: () => send({ load: box.checked }) } });
   const note = el('p', { class: 'quiet', id: 'weight-note' });
   const part = el('div', { hidden: true }, el('label', { class: 'check' }, box, 'Fingers weigh on the surface'), note);
-  app.state.subscribe('settings', ({ load }) => {
+  const show = () => {
+    const load = chosen(app)?.load;
     part.hidden = typeof load !== 'boolean';
     box.checked = load === true;
     if (note.dataset.load === String(load)) return;
     note.dataset.load = String(load);
     note.replaceChildren(...(load ? [HELD] : [FREE[0], el('code', { class: 'mono' }, FREE[1]), FREE[2]]));
-  });
+  };
   // What was refused is put back to what holds.
-  app.state.subscribe('fault', () => {
-    box.checked = app.state.last('settings')?.load === true;
-  });
+  for (const kind of ['settings', 'chosen', 'fault']) app.state.subscribe(kind, show);
   return part;
 }
 
@@ -64,7 +70,9 @@ export function mount(root, app) {
   );
   const quantity = document.getElementById('quantity');
   quantity.addEventListener('change', () => send({ quantity: quantity.value }));
-  app.state.subscribe('settings', (settings) => {
+  const show = () => {
+    const settings = chosen(app);
+    if (!settings) return;
     setOptions(effect, (settings.effects ?? []).map((e) => [e.name, e.title ?? e.name]), settings.effect);
     setOptions(method, (settings.methods ?? []).map((m) => [m.name, m.name]), settings.method);
     if (document.activeElement !== quantity) quantity.value = settings.quantity;
@@ -72,5 +80,6 @@ export function mount(root, app) {
     if (document.activeElement !== window) window.value = settings.window_ms == null ? '' : String(Number(settings.window_ms.toPrecision(5)));
     if (document.activeElement !== rate) rate.value = settings.rate_hz ?? '';
     setText(level, levelText(settings.level));
-  });
+  };
+  for (const kind of ['settings', 'chosen']) app.state.subscribe(kind, show);
 }

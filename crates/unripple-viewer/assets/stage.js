@@ -10,8 +10,8 @@ import { Sheet } from './sheet.js';
 import { fieldValue, fixed, seconds } from './units.js';
 
 const CALM_MS = 500;
-// A wait that is noticed.
-const NOTICED_MS = 100;
+// What takes no longer is not told; a wait of 0.1 s is noticed.
+const NOTICED_MS = 60;
 const GROUNDS = { dark: '#151a21', light: '#ffffff' };
 
 /** Whether a picture that waits to be painted is worth more than a newer one: of the strongest instants of real time the stronger. */

@@ -1,5 +1,7 @@
 // What a story asks of the server, step by step, and the way back to how everything was.
 
+import { chosen } from './settings.js';
+
 const FIRST_FINGER = 900;
 const ALIVE_MS = 500;
 const SURFACE_MS = 8000;
@@ -22,7 +24,7 @@ export class StoryScene {
 
   /** Remembers what is to be put back. */
   begin() {
-    this.before = { surface: this.app.state.last('surface'), settings: this.app.state.last('settings') };
+    this.before = { surface: this.app.state.last('surface'), settings: chosen(this.app) };
     this.alive = setInterval(() => this.touch('move', this.fingers), ALIVE_MS);
   }
 
@@ -130,7 +132,7 @@ export class StoryScene {
   }
 
   settle(settings) {
-    const told = this.app.state.last('settings');
+    const told = chosen(this.app);
     if (!told) return;
     const wanted = { ...settings };
     if (wanted.effect) wanted.effect = named(told.effects, wanted.effect);

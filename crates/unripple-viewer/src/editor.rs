@@ -3,7 +3,7 @@
 use crate::ViewError;
 use crate::draft::Draft;
 use crate::edition::{Edition, Editions};
-use crate::messages::{Settled, settings, surface};
+use crate::messages::{Settled, chosen, settings, surface};
 use crate::outbox::Outbox;
 use crate::simulation::{Instrument, Spec, check_effect};
 use crate::stop::{Stop, Underway};
@@ -47,6 +47,11 @@ impl Editor {
     /// The settings of an instrument as a message for pages.
     pub fn settings(&self, instrument: &Instrument) -> Value {
         settings(&self.told, instrument)
+    }
+
+    /// The playing options that were chosen last, as a message for pages.
+    pub fn chosen(&self) -> Value {
+        chosen(&self.spec)
     }
 
     /// Applies an edit of a page to the surface.

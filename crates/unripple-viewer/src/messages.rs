@@ -1,7 +1,7 @@
 //! Messages to pages on the surface and on its playing options.
 
 use crate::edition::Edition;
-use crate::simulation::{CELLS, Cells, Instrument, PULSES};
+use crate::simulation::{CELLS, Cells, Instrument, PULSES, Spec};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
@@ -146,6 +146,19 @@ pub fn settings(told: &Settled, instrument: &Instrument) -> Value {
         "level": instrument.level.to_string(),
         "modes": instrument.plant.modes(),
         "device": { "name": told.device, "real": spec.device.is_some() },
+    })
+}
+
+/// The message on the playing options that pages have chosen, as JSON: of those in the settings, the ones that a page can choose. They are
+/// played as soon as an instrument is built with them.
+pub fn chosen(spec: &Spec) -> Value {
+    json!({
+        "is": "chosen",
+        "method": spec.method.name(),
+        "effect": spec.effect,
+        "window_ms": spec.window.map(|seconds| seconds * 1e3),
+        "rate_hz": spec.rate,
+        "load": spec.load,
     })
 }
 

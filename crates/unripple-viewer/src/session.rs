@@ -66,6 +66,7 @@ impl Session {
         let editor = Editor::new(&instrument, told);
         let mut out = Outbox::default();
         out.tell("settings", &editor.settings(&instrument));
+        out.tell("chosen", &editor.chosen());
         let mut simulation = Simulation::new(instrument);
         simulation.begin(&mut out);
         let (editions, tasks) = (Editions::default(), Queue::default());
@@ -112,6 +113,8 @@ impl Session {
                 }
                 if settings.plays() {
                     let set = self.editor.set(&settings);
+                    // What was refused is put back by this.
+                    self.out.tell("chosen", &self.editor.chosen());
                     self.refuse(page, set);
                 }
             }
@@ -188,6 +191,7 @@ impl Session {
             Done::Built(Err(ViewError::Stopped)) => self.editor.given_up(),
             Done::Built(Err(error)) => {
                 self.editor.failed(&error.to_string(), self.simulation.rests(), &mut self.out);
+                self.out.tell("chosen", &self.editor.chosen());
             }
             Done::Found(Found::Out(out)) => self.out.push(out),
             Done::Found(Found::Replay(replay)) => self.order(Order::Replay(Some(replay))),

@@ -177,3 +177,21 @@ fn the_same_words_and_times_give_the_same_pictures() {
     let (one, other) = (pictures(), pictures());
     assert!(one.len() > 5 && one == other);
 }
+
+#[test]
+fn what_was_chosen_is_told_at_once_and_before_it_is_played() {
+    let mut session = session();
+    let chosen = |session: &mut Session| told(&session.take(), "chosen").pop().unwrap_or_default();
+    assert_eq!(chosen(&mut session)["rate_hz"], 10.0);
+    hear(&mut session, 1, r#"{"do":"settings","method":"one-bit"}"#);
+    let Some(Errand::Build(first, _)) = session.errand() else { panic!("nothing to build") };
+    assert_eq!(chosen(&mut session)["method"], "one-bit");
+    hear(&mut session, 1, r#"{"do":"settings","rate_hz":5}"#);
+    session.done(Errand::build(first, &Stop::default(), &Lane::new(0)));
+    let said = session.take();
+    // What is played first has the rate of before, and pages know that it does not last.
+    assert_eq!(told(&said, "settings").pop().unwrap()["rate_hz"], 10.0);
+    assert_eq!(told(&said, "chosen").pop().unwrap()["rate_hz"], 5.0);
+    hear(&mut session, 1, r#"{"do":"settings","method":"magic"}"#);
+    assert_eq!(chosen(&mut session)["method"], "one-bit");
+}

@@ -72,6 +72,8 @@ struct Probe {
 /// A surface that is played, its clock, and what pages see of it.
 pub struct Simulation {
     instrument: Instrument,
+    /// The instrument that is played when time goes on, and the message that is sent then: what is shown while time stands still stays.
+    next: Option<(Box<Instrument>, Value)>,
     transport: Transport,
     velocity: bool,
     probes: Vec<Probe>,
@@ -113,6 +115,7 @@ impl Simulation {
         fingers.renew(hold(&instrument));
         Self {
             instrument,
+            next: None,
             transport: Transport::default(),
             velocity: false,
             probes: Vec::new(),
@@ -185,6 +188,7 @@ impl Simulation {
                     None => self.transport.obey(&asked, oldest, state),
                 }
                 self.tell_transport(out);
+                self.go_on(out);
             }
             Order::Velocity(velocity) => {
                 self.velocity = velocity;
@@ -195,8 +199,12 @@ impl Simulation {
                 self.tell_transport(out);
             }
             Order::Play(instrument, told) => {
-                self.play(*instrument, out);
-                out.tell("settings", &told);
+                let alike = instrument.spec.surface == self.instrument.spec.surface;
+                let here = matches!(self.instrument.playback, Playback::Here(_)) && self.replay.is_none();
+                self.next = Some((instrument, told));
+                if !(alike && here && self.transport.paused) {
+                    self.take_next(out);
+                }
             }
             Order::Replay(replay) => {
                 let Transport { speed, .. } = self.transport;
@@ -206,6 +214,7 @@ impl Simulation {
                 };
                 self.replay = replay;
                 self.tell_anew(out);
+                self.go_on(out);
             }
             Order::Look => {}
         }
@@ -240,6 +249,20 @@ impl Simulation {
     fn present(&self) -> f64 {
         // What is recorded has a clock of its own.
         if self.replay.is_some() { self.head() } else { self.transport.now }
+    }
+
+    /// Plays the instrument that waits for time to go on, if it does.
+    fn go_on(&mut self, out: &mut Outbox) {
+        if !self.transport.paused && self.replay.is_none() {
+            self.take_next(out);
+        }
+    }
+
+    fn take_next(&mut self, out: &mut Outbox) {
+        if let Some((instrument, told)) = self.next.take() {
+            self.play(*instrument, out);
+            out.tell("settings", &told);
+        }
     }
 
     /// Plays another instrument, at the same pace and with the same fingers.

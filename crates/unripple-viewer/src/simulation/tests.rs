@@ -87,7 +87,9 @@ fn a_surface_that_is_played_otherwise_is_seen_while_time_stands_still() {
         let mut out = Outbox::default();
         let paused = wire::Transport { speed: Some(speed), paused: Some(true), ..wire::Transport::default() };
         simulation.obey(Order::Transport(paused), &mut out);
-        let other = Instrument::build(spec(), &mut Silent).unwrap();
+        let mut other = spec();
+        other.surface.sheet.tension = 150.0;
+        let other = Instrument::build(other, &mut Silent).unwrap();
         simulation.obey(Order::Play(Box::new(other), json!({ "is": "settings" })), &mut out);
         simulation.advance(0.1, 1, &mut some(20), &mut out);
         assert!(simulation.transport.paused && simulation.head() > 0.0, "{speed}");
@@ -183,4 +185,28 @@ fn a_tap_while_time_stands_still_is_played_when_it_goes_on() {
         simulation.advance(0.1, 1, &mut || true, &mut out);
     }
     assert!(simulation.known.fingers.is_empty() && simulation.known.tally.started > begun);
+}
+
+#[test]
+fn what_is_chosen_while_time_stands_still_is_played_when_it_goes_on() {
+    let (mut simulation, _) = running();
+    let mut out = Outbox::default();
+    let stands = |paused| wire::Transport { paused: Some(paused), ..wire::Transport::default() };
+    simulation.obey(Order::Transport(stands(true)), &mut out);
+    let (head, shown) = (simulation.head(), simulation.transport.shown());
+    for rate in [20.0, 30.0] {
+        let other = Instrument::build(Spec { rate, ..spec() }, &mut Silent).unwrap();
+        simulation.obey(Order::Play(Box::new(other), json!({ "is": "settings", "rate_hz": rate })), &mut out);
+        simulation.advance(0.1, 1, &mut some(20), &mut out);
+    }
+    assert!(
+        (simulation.head(), simulation.transport.shown()) == (head, shown) && simulation.transport.paused
+    );
+    assert_eq!(told(&out.take(), "settings"), Value::Null);
+    simulation.obey(Order::Transport(stands(false)), &mut out);
+    let said = out.take();
+    assert_eq!(told(&said, "settings")["rate_hz"], 30.0);
+    assert!(
+        simulation.head() < head && !simulation.transport.paused && simulation.instrument.spec.rate == 30.0
+    );
 }
