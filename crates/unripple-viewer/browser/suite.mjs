@@ -14,3 +14,4 @@ import './return.test.mjs';
 import './stop.test.mjs';
 import './stories.test.mjs';
 import './viewers.test.mjs';
+import './words.test.mjs';
