@@ -109,7 +109,7 @@ fn methods_go_on_without_one_that_fails() {
     assert!(!methods.iter().any(|name| name == "felt"), "{methods:?}");
     let failed = rows("failed");
     let felt: Vec<&Value> = failed.iter().filter(|row| row["method"] == "felt").collect();
-    let why = "lead (s): expected 0 to less than the window, 0.0035, found 0.004";
+    let why = "window (s): expected more than 0.004, the time from the focus to its end, found 0.0035";
     assert!(felt.len() == 1 && felt[0]["why"] == why, "{failed:?}");
     assert_eq!(names("felt"), ["time-reversal"], "nothing to hold against it");
     let page = std::fs::read_to_string(scratch.join("out/report.md")).unwrap();

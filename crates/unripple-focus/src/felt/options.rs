@@ -49,8 +49,14 @@ impl FeltOptions {
     pub(crate) fn check(&self) -> Result<(), FocusError> {
         let positive = |x: f64| x.is_finite() && x > 0.0;
         require("window (s)", positive(self.window), "a positive number", self.window)?;
-        let lead = (0.0..self.window).contains(&self.lead);
-        require("lead (s)", lead, format!("0 to less than the window, {}", self.window), self.lead)?;
+        require(
+            "time from the focus to the end of the window (s)",
+            self.lead >= 0.0,
+            "0 or more",
+            self.lead,
+        )?;
+        let room = format!("more than {}, the time from the focus to its end", self.lead);
+        require("window (s)", self.window > self.lead, room, self.window)?;
         require("limit", positive(self.limit), "a positive number", self.limit)?;
         if let Some(rms) = self.rms_limit {
             require("rms limit", positive(rms), "a positive number", rms)?;

@@ -122,7 +122,7 @@ impl LibraryPlan {
             .or_else(|| {
                 let mut pairs = self.points.iter().zip(&found.points).enumerate();
                 let (i, (here, there)) = pairs.find(|(_, (here, there))| here != there)?;
-                told(&format!("point {}", i + 1), format!("{here:?}"), format!("{there:?}"))
+                told(&format!("point {}", i + 1), place(*here), place(*there))
             })
             .or_else(|| told("samples", self.samples.to_string(), found.samples.to_string()))
             .or_else(|| told("sample rate in Hz", a.rate.to_string(), b.rate.to_string()))
@@ -142,10 +142,16 @@ impl LibraryPlan {
     }
 }
 
+/// A place to the last digit, so that two that differ read differently.
+fn place(at: Point) -> String {
+    format!("({}, {}) m", at.x, at.y)
+}
+
 fn ports(here: &LibraryPlan, there: &LibraryPlan) -> Option<String> {
     let told = |plan: &LibraryPlan, i: usize| {
         let port = &plan.ports[i];
-        format!("`{}` at {:?} in {}", port.name, port.at, plan.drive_units.get(i).map_or("no unit", |u| u))
+        let unit = plan.drive_units.get(i).map_or("no unit", |u| u);
+        format!("`{}` at {} in {unit}", port.name, place(port.at))
     };
     let mut pairs = (0..here.ports.len()).map(|i| (i, told(here, i), told(there, i)));
     let (i, a, b) = pairs.find(|(_, a, b)| a != b)?;

@@ -118,7 +118,7 @@ fn takes_up_the_same_plan_and_no_other() {
     let changes: [Change; 7] = [
         ("samples: 8 instead of 9", |p| p.samples = 9),
         ("actuator 2: `a2`", |p| p.ports[1].name = "b".into()),
-        ("point 4: ", |p| p.points[3].x += 1e-9),
+        ("point 4: (", |p| p.points[3].x += 1e-9),
         ("points: 4 instead of 3", |p| p.points.truncate(3)),
         ("sample rate in Hz: 48000 instead of 44100", |p| p.conditions.rate = 44.1e3),
         ("outline", |p| p.conditions.outline = Outline::new(Shape::Circle { radius: 0.1 })),
