@@ -54,36 +54,48 @@ impl Editor {
         chosen(&self.spec)
     }
 
-    /// Applies an edit of a page to the surface.
+    /// Applies an edit of a page, given by its number, to the surface.
     ///
     /// # Errors
     /// [`ViewError`] for an edit that cannot be applied; then nothing has changed.
-    pub fn edit(&mut self, edit: &Edit) -> Result<(), ViewError> {
+    pub fn edit(&mut self, page: u64, edit: &Edit) -> Result<(), ViewError> {
+        self.draft.hand_to(page);
         self.draft.edit(edit)?;
         self.changed(edit.settled != Some(false));
         Ok(())
     }
 
-    /// Undoes the last edit of the surface.
-    pub fn undo(&mut self) {
+    /// Undoes the last edit of the surface, if `may` allows it for the number of the page that made it.
+    ///
+    /// # Errors
+    /// [`ViewError::Range`] if it does not.
+    pub fn undo(&mut self, may: impl Fn(u64) -> bool) -> Result<(), ViewError> {
+        allowed("undo", self.draft.whose().0, may)?;
         if self.draft.undo() {
             self.changed(true);
         }
+        Ok(())
     }
 
-    /// Redoes the edit that was undone last.
-    pub fn redo(&mut self) {
+    /// Redoes the edit that was undone last, if `may` allows it for the number of the page that made it.
+    ///
+    /// # Errors
+    /// [`ViewError::Range`] if it does not.
+    pub fn redo(&mut self, may: impl Fn(u64) -> bool) -> Result<(), ViewError> {
+        allowed("redo", self.draft.whose().1, may)?;
         if self.draft.redo() {
             self.changed(true);
         }
+        Ok(())
     }
 
-    /// Replaces the surface by a built-in one.
+    /// Replaces the surface by a built-in one, for a page, given by its number.
     ///
     /// # Errors
     /// [`ViewError::Range`] if no built-in surface has that name.
-    pub fn open(&mut self, name: String) -> Result<(), ViewError> {
+    pub fn open(&mut self, page: u64, name: String) -> Result<(), ViewError> {
         let surface = open(&name)?;
+        self.draft.hand_to(page);
         self.replace(surface, name);
         Ok(())
     }
@@ -95,6 +107,7 @@ impl Editor {
     pub fn load(&mut self, text: &str) -> Result<(), String> {
         let surface = parse_surface(text, "uploaded").map_err(|faults| format!("{faults:#}"))?;
         let name = surface.name.clone();
+        self.draft.hand_to(0);
         self.replace(surface, name);
         Ok(())
     }
@@ -206,6 +219,15 @@ impl Editor {
         out.tell("surface", &surface(&edition, self.draft.ways(), &self.told.source, library));
         Some(edition)
     }
+}
+
+/// Refuses to take back or repeat an edit of a page (its number) that `may` does not allow.
+fn allowed(what: &'static str, by: Option<u64>, may: impl Fn(u64) -> bool) -> Result<(), ViewError> {
+    if by.is_none_or(may) {
+        return Ok(());
+    }
+    let (expected, found) = ("a change made on this page".into(), "one made on another open page".into());
+    Err(ViewError::Range { what, expected, found })
 }
 
 /// A built-in surface: pages open no files.

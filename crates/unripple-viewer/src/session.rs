@@ -11,6 +11,7 @@ use crate::simulation::{Instrument, Order, Simulation, Spec};
 use crate::stop::Stop;
 use crate::wire::Command;
 use serde_json::json;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use unripple::core::Point;
 use unripple_tasks::{Lane, TaskError};
@@ -57,6 +58,8 @@ pub struct Session {
     editor: Editor,
     editions: Editions,
     tasks: Queue,
+    /// Numbers of the open pages that have said something.
+    pages: BTreeSet<u64>,
     out: Outbox,
 }
 
@@ -70,7 +73,7 @@ impl Session {
         let mut simulation = Simulation::new(instrument);
         simulation.begin(&mut out);
         let (editions, tasks) = (Editions::default(), Queue::default());
-        let mut session = Self { simulation, editor, editions, tasks, out };
+        let mut session = Self { simulation, editor, editions, tasks, pages: BTreeSet::new(), out };
         session.renew();
         session
     }
@@ -89,12 +92,14 @@ impl Session {
     /// Records that a page was closed; its fingers are lifted, and the computations that it requested are
     /// cancelled.
     pub fn leave(&mut self, page: u64) {
+        self.pages.remove(&page);
         self.simulation.obey(Order::Leave(page), &mut self.out);
         self.give_up(|asked| asked.page == page);
     }
 
     /// Carries out a command of a page; pages are numbered from 1. Commands for the link or for jobs are ignored here.
     pub fn hear(&mut self, page: u64, command: Command) {
+        self.pages.insert(page);
         match command {
             Command::Touch { finger, phase, at_mm: [x, y] } => {
                 self.order(Order::Touch((page, finger), phase, Point::from_mm(x, y)));
@@ -119,13 +124,13 @@ impl Session {
                 }
             }
             Command::Edit(edit) => {
-                let edited = self.editor.edit(&edit);
+                let edited = self.editor.edit(page, &edit);
                 self.refuse(page, edited);
             }
-            Command::Undo => self.editor.undo(),
-            Command::Redo => self.editor.redo(),
+            Command::Undo => self.step_in_edits(page, false),
+            Command::Redo => self.step_in_edits(page, true),
             Command::Open { name } => {
-                let opened = self.editor.open(name);
+                let opened = self.editor.open(page, name);
                 self.refuse(page, opened);
             }
             Command::Measure(measure) => {
@@ -217,6 +222,13 @@ impl Session {
         if let Err(error) = done {
             self.out.refuse(page, error.to_string());
         }
+    }
+
+    /// Undoes or redoes an edit for a page: its own, or one of a page that is closed.
+    fn step_in_edits(&mut self, page: u64, redo: bool) {
+        let may = |by: u64| by == page || !self.pages.contains(&by);
+        let done = if redo { self.editor.redo(may) } else { self.editor.undo(may) };
+        self.refuse(page, done);
     }
 
     /// Queues a computation for the surface that a page shows.

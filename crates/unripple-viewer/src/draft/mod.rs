@@ -31,16 +31,37 @@ const MOST: usize = 200;
 #[derive(Clone, Debug)]
 pub struct Draft {
     surface: Surface,
+    /// Number of the page that edits.
+    by: u64,
     /// Before the edit that is under way, if it is not settled.
     base: Option<Surface>,
-    past: Vec<Surface>,
-    future: Vec<Surface>,
+    past: Vec<Step>,
+    future: Vec<Step>,
+}
+
+/// A state to which an undo or a redo leads back, and the number of the page whose edit that takes back or repeats.
+#[derive(Clone, Debug)]
+struct Step {
+    surface: Surface,
+    by: u64,
 }
 
 impl Draft {
     /// A draft that begins with a surface.
     pub fn new(surface: Surface) -> Self {
-        Self { surface, base: None, past: Vec::new(), future: Vec::new() }
+        Self { surface, by: 0, base: None, past: Vec::new(), future: Vec::new() }
+    }
+
+    /// Counts edits from now on as those of a page, given by its number; 0 for nobody's.
+    pub fn hand_to(&mut self, page: u64) {
+        self.by = page;
+    }
+
+    /// Numbers of the pages whose edits an undo takes back and a redo repeats; `None` where there is none.
+    pub fn whose(&self) -> (Option<u64>, Option<u64>) {
+        let by = |steps: &[Step]| steps.last().map(|step| step.by);
+        let undoes = self.base.as_ref().map(|_| self.by).or_else(|| by(&self.past));
+        (undoes, by(&self.future))
     }
 
     /// The surface as it is now.
@@ -83,21 +104,21 @@ impl Draft {
         if let Some(base) = self.base.take() {
             self.keep(base);
         }
-        let Some(before) = self.past.pop() else { return false };
-        self.future.push(std::mem::replace(&mut self.surface, before));
+        let Some(Step { surface, by }) = self.past.pop() else { return false };
+        self.future.push(Step { surface: std::mem::replace(&mut self.surface, surface), by });
         true
     }
 
     /// Redoes one edit; returns whether there was one.
     pub fn redo(&mut self) -> bool {
-        let Some(next) = self.future.pop() else { return false };
-        self.past.push(std::mem::replace(&mut self.surface, next));
+        let Some(Step { surface, by }) = self.future.pop() else { return false };
+        self.past.push(Step { surface: std::mem::replace(&mut self.surface, surface), by });
         true
     }
 
     fn keep(&mut self, before: Surface) {
         self.future.clear();
-        self.past.push(before);
+        self.past.push(Step { surface: before, by: self.by });
         if self.past.len() > MOST {
             self.past.remove(0);
         }

@@ -195,3 +195,26 @@ fn what_was_chosen_is_told_at_once_and_before_it_is_played() {
     hear(&mut session, 1, r#"{"do":"settings","method":"magic"}"#);
     assert_eq!(chosen(&mut session)["method"], "one-bit");
 }
+
+#[test]
+fn a_page_takes_back_its_own_edits_and_those_of_pages_that_have_gone() {
+    let mut session = session();
+    for (page, tension) in [(1, 150), (2, 160), (1, 170)] {
+        hear(&mut session, page, &format!(r#"{{"do":"edit","tension_n_per_m":{tension}}}"#));
+    }
+    let mut undo = |page: u64, gone: Option<u64>| {
+        gone.into_iter().for_each(|gone| session.leave(gone));
+        session.take();
+        hear(&mut session, page, r#"{"do":"undo"}"#);
+        session.renew();
+        let said = session.take();
+        let refused = said.iter().any(|out| matches!(out, Out::Refuse(of, _) if *of == page));
+        let tension =
+            told(&said, "surface").pop().map(|surface| surface["values"]["tension_n_per_m"].clone());
+        (refused, tension)
+    };
+    assert_eq!(undo(2, None), (true, None));
+    assert_eq!(undo(1, None), (false, Some(json!(160.0))));
+    assert_eq!(undo(1, None), (true, None));
+    assert_eq!(undo(1, Some(2)), (false, Some(json!(150.0))));
+}
