@@ -84,7 +84,7 @@ function fillTouch() {
 }
 
 /** How time passes comes in messages of its own; panels read it together with how the surface is played. */
-const START = { speed: 1, paused: false, quantity: 'displacement', probes: [] };
+const START = { speed: 1, paused: false, quantity: 'displacement', gain_db: 0, probes: [] };
 let passing = {};
 
 function takeText(message) {

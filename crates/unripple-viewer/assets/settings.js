@@ -6,6 +6,9 @@ import { fixed } from './units.js';
 const FREE = ['Fingers do not load the surface: it moves freely, as ', 'focus', ' computes it.'];
 const HELD = 'Each finger loads the film (its mass, damping, stiffness): it holds the place down, and waves meet around it.';
 
+/** Least strength: a hundredth of the full level. */
+const SOFTEST_DB = -40;
+
 /** A field with a label; the unit stands in the label. */
 function field(text, unit, control) {
   return el('label', { class: 'field' }, el('span', {}, `${text} `, unit ? el('i', { text: unit }) : null), control);
@@ -59,6 +62,15 @@ export function mount(root, app) {
   const window = number('window_ms', { min: '0.1', max: '1000' });
   const rate = number('rate_hz', { min: '0.1', max: '500', required: true });
   const level = el('p', { class: 'quiet' });
+  const gain = el('input', { type: 'range', min: String(SOFTEST_DB), max: '0', step: '1', value: '0', 'aria-label': 'Strength' });
+  const gainText = el('span', { class: 'quiet' });
+  const sayGain = (db) => {
+    const text = db === 0 ? 'full level' : `${fixed(-db, 0)} dB below full level`;
+    setText(gainText, `Strength: ${text}`);
+    gain.setAttribute('aria-valuetext', text);
+  };
+  gain.addEventListener('input', () => sayGain(Number(gain.value)));
+  gain.addEventListener('change', () => send({ gain_db: Number(gain.value) }));
   const weight = weightPart(app, send);
   root.append(
     el('h2', { text: 'Answer to a touch' }),
@@ -66,6 +78,7 @@ export function mount(root, app) {
     el('div', { class: 'grid2' },
       field('Method', '', method),
       field('Window', 'ms', window), field('Rate', 'Hz', rate)),
+    el('label', { class: 'field' }, gainText, gain),
     level, weight,
   );
   const quantity = document.getElementById('quantity');
@@ -78,6 +91,10 @@ export function mount(root, app) {
     if (document.activeElement !== quantity) quantity.value = settings.quantity;
     window.placeholder = `${fixed(settings.window_auto_ms)} (automatic)`;
     if (document.activeElement !== window) window.value = settings.window_ms == null ? '' : String(Number(settings.window_ms.toPrecision(5)));
+    if (!gain.matches(':active')) {
+      gain.value = String(settings.gain_db ?? 0);
+      sayGain(Number(gain.value));
+    }
     if (document.activeElement !== rate) rate.value = settings.rate_hz ?? '';
     setText(level, levelText(settings.level));
   };

@@ -116,6 +116,9 @@ impl Session {
                         self.out.refuse(page, why);
                     }
                 }
+                if let Some(db) = settings.gain_db {
+                    self.order(Order::Gain(db));
+                }
                 if settings.plays() {
                     let set = self.editor.set(&settings);
                     // What was refused is put back by this.

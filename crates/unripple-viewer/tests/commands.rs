@@ -9,7 +9,7 @@ use unripple_viewer::{Command, Draft, Edit};
 const RIGHT: [&str; 10] = [
     r#"{"do":"touch","finger":0,"phase":"down","at_mm":[62,90]}"#,
     r#"{"do":"transport","speed":0.01,"paused":true,"step":-3,"shown_s":1.25}"#,
-    r#"{"do":"settings","method":"inverse","effect":"purr","window_ms":null,"rate_hz":5,"load":true}"#,
+    r#"{"do":"settings","method":"inverse","effect":"purr","window_ms":null,"rate_hz":5,"load":true,"gain_db":-6}"#,
     r#"{"do":"probe","add":[10,20],"remove":3}"#,
     r#"{"do":"edit","stadium_mm":[60,40],"actuators":5,"edge":"free","material":"glass","settled":false}"#,
     r#"{"do":"edit","actuator":2,"at_mm":[30,40],"thickness_mm":0.2,"tension_n_per_m":1e3}"#,

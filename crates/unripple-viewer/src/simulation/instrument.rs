@@ -1,7 +1,7 @@
 //! The instrument that plays a surface: device, engine, and the modes from which pictures are computed.
 
 use super::lens::Lens;
-use super::page_touches::{PageTouches, Pressed};
+use super::page_touches::{News, PageTouches};
 use super::past::{room, stride};
 use super::playback::{Away, Playback};
 use super::real_device::RealDevice;
@@ -84,8 +84,8 @@ pub struct Instrument {
     pub plant: Plant,
     /// Linear map from states of the modes to pictures.
     pub lens: Lens,
-    /// Channel to which the fingers of pages are sent.
-    pub page_touches: Sender<Pressed>,
+    /// Channel to which the fingers of pages, and the level of effects, are sent.
+    pub page_touches: Sender<News>,
     /// The drive of the last second.
     pub tape: Tape,
     /// The window in use, with the contrast expected of it.

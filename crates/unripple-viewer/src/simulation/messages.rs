@@ -92,6 +92,7 @@ impl Simulation {
             "speed": self.transport.speed,
             "paused": self.transport.paused,
             "quantity": if self.velocity { "velocity" } else { "displacement" },
+            "gain_db": self.gain_db,
             "probes": self.probes.iter().map(probe).collect::<Vec<_>>(),
         });
         out.tell("transport", &transport);

@@ -8,6 +8,7 @@ mod page_fingers;
 mod page_touches;
 mod past;
 mod playback;
+mod pressing;
 mod real_device;
 mod replay;
 mod tape;
@@ -24,8 +25,9 @@ pub use transport::Transport;
 
 use crate::outbox::Outbox;
 use crate::wire;
-use page_fingers::{FINGERS, PageFingers, SHOWN};
+use page_fingers::PageFingers;
 use playback::{Known, Playback, step};
+use pressing::hold;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use unripple::core::Point;
@@ -52,6 +54,8 @@ pub enum Order {
     Transport(wire::Transport),
     /// Shows velocity if true, else displacement.
     Velocity(bool),
+    /// Level of all effects, in dB relative to their own.
+    Gain(f64),
     /// Adds or removes a place whose motion is followed.
     Probe(wire::Probe),
     /// Plays another instrument; the message is sent to pages after that.
@@ -76,6 +80,7 @@ pub struct Simulation {
     next: Option<(Box<Instrument>, Value)>,
     transport: Transport,
     velocity: bool,
+    gain_db: f64,
     probes: Vec<Probe>,
     given: u32,
     replay: Option<Box<Replay>>,
@@ -118,6 +123,7 @@ impl Simulation {
             next: None,
             transport: Transport::default(),
             velocity: false,
+            gain_db: 0.0,
             probes: Vec::new(),
             given: 0,
             replay: None,
@@ -194,6 +200,11 @@ impl Simulation {
                 self.velocity = velocity;
                 self.tell_transport(out);
             }
+            Order::Gain(db) => {
+                self.gain_db = db;
+                self.tell_gain();
+                self.tell_transport(out);
+            }
             Order::Probe(asked) => {
                 self.probe(&asked);
                 self.tell_transport(out);
@@ -218,37 +229,6 @@ impl Simulation {
             }
             Order::Look => {}
         }
-    }
-
-    /// Sends the instrument the fingers that are down, if they have changed; not while time is paused.
-    fn press(&mut self) {
-        let hears = match &mut self.instrument.playback {
-            Playback::Here(_) if self.transport.paused => return,
-            Playback::Here(engine) => engine.stage().time(),
-            // A real surface hears of every lift at once.
-            Playback::Away(_) => f64::NEG_INFINITY,
-        };
-        if let Some(pressed) = self.fingers.take(hears) {
-            // An instrument at its end needs to know no more.
-            let _ = self.instrument.page_touches.send(pressed);
-        }
-    }
-
-    /// Shows the present, for a press, and in slow motion goes on to the block in which the surface hears of it: the rest of the block
-    /// before would take seconds.
-    fn hasten(&mut self) {
-        if self.transport.paused || self.replay.is_some() {
-            return;
-        }
-        if let Playback::Here(engine) = &mut self.instrument.playback {
-            self.transport.hasten(engine.stage().time());
-        }
-    }
-
-    /// Present time of the live surface, in s.
-    fn present(&self) -> f64 {
-        // What is recorded has a clock of its own.
-        if self.replay.is_some() { self.head() } else { self.transport.now }
     }
 
     /// Plays the instrument that waits for time to go on, if it does.
@@ -277,6 +257,7 @@ impl Simulation {
         self.before = 0.0;
         self.wrong = None;
         self.targets.clear();
+        self.tell_gain();
         self.fingers.renew(hold(&self.instrument));
         self.press();
         let plant = &self.instrument.plant;
@@ -327,13 +308,6 @@ impl Simulation {
         };
     }
 
-    /// Fingers of pages that are on the sheet.
-    fn resting(&self) -> Vec<(u64, Point)> {
-        let outline = &self.instrument.spec.surface.outline;
-        let here = self.fingers.places().filter(|(_, at)| outline.contains(*at));
-        here.map(|((page, finger), at)| (page * FINGERS + u64::from(finger), at)).collect()
-    }
-
     /// Steps the surface up to the present of its clock; if there is not enough time for that, the clock falls behind.
     fn catch_up(&mut self, more: &mut dyn FnMut() -> bool) {
         let Instrument { playback, tape, spec, .. } = &mut self.instrument;
@@ -382,13 +356,5 @@ impl Simulation {
             (oldest / rate, history.stride() as f64 / rate)
         });
         span.unwrap_or((0.0, 1.0 / rate))
-    }
-}
-
-/// How long a press stays on a surface at least, in s of its clock: until its focus has been shown. A real surface does not wait.
-fn hold(instrument: &Instrument) -> f64 {
-    match instrument.playback {
-        Playback::Here(_) => instrument.window.seconds + SHOWN,
-        Playback::Away(_) => 0.0,
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use unripple::core::{Outline, Point};
-use unripple_touch::{Counts, Fingers, Heard, Key, Options, Source, TouchError};
+use unripple_touch::{Counts, Fingers, Heard, Key, Options, Source, TouchError, Wish};
 
 /// Changes taken in one poll, so that a poll does bounded work; the rest is taken by the next.
 const TAKEN: usize = 256;
@@ -15,25 +15,33 @@ const MOST: usize = 128;
 /// finger.
 pub type Pressed = BTreeMap<(u64, u32), Point>;
 
+/// What pages tell a source of touches.
+pub enum News {
+    /// All fingers that are down.
+    Pressed(Pressed),
+    /// Level of all effects, in dB relative to their own.
+    Gain(f64),
+}
+
 /// Source of touches that receives the fingers on pages.
 pub struct PageTouches {
     outline: Outline,
-    pressed: Receiver<Pressed>,
+    news: Receiver<News>,
     fingers: Fingers,
     counts: Counts,
 }
 
 impl PageTouches {
-    /// A source of touches on a surface with this outline, and the channel through which it receives the fingers that
-    /// are down.
+    /// A source of touches on a surface with this outline, and the channel through which it is told of the fingers
+    /// that are down.
     ///
     /// # Errors
     /// [`TouchError`] for an outline on which touches cannot be received.
-    pub fn new(outline: &Outline) -> Result<(Sender<Pressed>, Self), TouchError> {
-        let (tell, pressed) = channel();
+    pub fn new(outline: &Outline) -> Result<(Sender<News>, Self), TouchError> {
+        let (tell, news) = channel();
         // A page is one sender among others, and its link says when it is gone: nothing is lifted for want of news.
         let fingers = Fingers::new(Options { most: MOST, most_per_sender: MOST, ..Options::new(outline) })?;
-        Ok((tell, Self { outline: outline.clone(), pressed, fingers, counts: Counts::default() }))
+        Ok((tell, Self { outline: outline.clone(), news, fingers, counts: Counts::default() }))
     }
 
     fn hear(&mut self, pressed: &Pressed, heard: &mut Heard) {
@@ -62,9 +70,12 @@ impl Source for PageTouches {
     fn poll(&mut self, now: f64, heard: &mut Heard) {
         self.fingers.begin(now);
         for _ in 0..TAKEN {
-            let Ok(pressed) = self.pressed.try_recv() else { return };
+            let Ok(news) = self.news.try_recv() else { return };
             self.counts.packets += 1;
-            self.hear(&pressed, heard);
+            match news {
+                News::Pressed(pressed) => self.hear(&pressed, heard),
+                News::Gain(db) => heard.wishes.push(Wish::Gain(db)),
+            }
         }
     }
 

@@ -120,8 +120,8 @@ fn without_a_scale_the_limit_alone_sets_the_level() {
     assert!(unknown.level.to_string().ends_with("its displacement is unknown"), "{}", unknown.level);
 }
 
-/// The time between two, in s, at which a place has moved most, as far as states are remembered.
-fn strongest(simulation: &Simulation, at: Point, [from, to]: [f64; 2]) -> f64 {
+/// The time between two, in s, at which a place has moved most, as far as states are remembered; and how far, in m.
+fn strongest(simulation: &Simulation, at: Point, [from, to]: [f64; 2]) -> (f64, f32) {
     let Instrument { plant, handle, .. } = &simulation.instrument;
     let (weights, rate) = (lens::weights(plant, &[at]), simulation.instrument.rate());
     let found = handle.history(|history| {
@@ -130,7 +130,7 @@ fn strongest(simulation: &Simulation, at: Point, [from, to]: [f64; 2]) -> f64 {
         let trace = past.trace(&weights, newest, past.back(from) - newest + 1);
         let most = (0..trace.len()).max_by(|a, b| trace[*a].abs().total_cmp(&trace[*b].abs())).unwrap();
         let back = newest + trace.len() - 1 - most;
-        (history.newest() as f64 - (back * history.stride()) as f64) / rate
+        ((history.newest() as f64 - (back * history.stride()) as f64) / rate, trace[most].abs())
     });
     found.unwrap()
 }
@@ -162,7 +162,7 @@ fn a_tap_is_answered_at_once_and_its_focus_seen_at_every_speed() {
             assert!(parts < 4000, "{speed}: the finger stays");
         }
         assert!(simulation.transport.shown() >= focus, "{speed}: the finger goes before its focus");
-        let found = strongest(&simulation, at, [before, focus + SHOWN]);
+        let (found, _) = strongest(&simulation, at, [before, focus + page_fingers::SHOWN]);
         assert!((found - focus).abs() < 1e-3, "{speed}: most at {found} s instead of {focus} s");
     }
 }
@@ -209,4 +209,31 @@ fn what_is_chosen_while_time_stands_still_is_played_when_it_goes_on() {
     assert!(
         simulation.head() < head && !simulation.transport.paused && simulation.instrument.spec.rate == 30.0
     );
+}
+
+#[test]
+fn effects_are_as_strong_as_pages_ask_for_on_every_instrument() {
+    let at = Point::from_mm(62.0, 90.0);
+    let (mut simulation, _) = running();
+    let mut out = Outbox::default();
+    let mut tap = |simulation: &mut Simulation| {
+        let before = simulation.head();
+        for phase in [wire::Phase::Down, wire::Phase::Up] {
+            simulation.obey(Order::Touch((1, 0), phase, at), &mut out);
+        }
+        // Until the sheet has come to rest, but not until it has forgotten.
+        (0..4).for_each(|_| simulation.advance(0.2, 0, &mut || true, &mut out));
+        let focus = before + simulation.instrument.window.seconds;
+        strongest(simulation, at, [before, focus + page_fingers::SHOWN]).1
+    };
+    let full = tap(&mut simulation);
+    simulation.obey(Order::Gain(-20.0), &mut Outbox::default());
+    let soft = tap(&mut simulation);
+    assert!((soft / full - 0.1).abs() < 0.01, "{soft} m of {full} m");
+    let mut told_to = Outbox::default();
+    let other = Instrument::build(Spec { rate: 5.0, ..spec() }, &mut Silent).unwrap();
+    simulation.obey(Order::Play(Box::new(other), json!({ "is": "settings" })), &mut told_to);
+    assert_eq!(told(&told_to.take(), "transport")["gain_db"], -20.0);
+    let other = tap(&mut simulation);
+    assert!((other / soft - 1.0).abs() < 0.1, "{other} m instead of {soft} m");
 }

@@ -135,6 +135,8 @@ pub struct Settings {
     pub quantity: Option<String>,
     /// Whether resting fingers load the simulated surface.
     pub load: Option<bool>,
+    /// Level of all effects, in dB relative to their own; 0 is as much as linear theory allows.
+    pub gain_db: Option<f64>,
 }
 
 /// A place whose motion is to be followed, or no longer.
@@ -305,6 +307,7 @@ impl Settings {
         let names = [&self.method, &self.effect, &self.quantity];
         names.into_iter().flatten().try_for_each(|name| short("name", name))?;
         some("window_ms", self.window_ms, [0.0, 1000.0])?;
+        some("gain_db", self.gain_db, [-60.0, 0.0])?;
         some("rate_hz", self.rate_hz, [0.1, 500.0])
     }
 }
