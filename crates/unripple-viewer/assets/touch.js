@@ -1,12 +1,15 @@
 // Fingers: pointers and the keyboard on the map become touches of the surface.
 
 import { Hints } from './hints.js';
-import { fieldValue, place } from './units.js';
+import { fieldValue, place, seconds } from './units.js';
 
 const KEY_FINGER = 20;
 
 // The server lifts a finger of which it hears nothing for 30 s.
 const HELD_MS = 5000;
+
+// Whoever waits longer for a focus would think that nothing happens.
+const LONG_S = 3;
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
@@ -135,8 +138,16 @@ export class Touch {
     if (pointer.down) this.#pressed();
   }
 
+  /** In slow motion the waves take as many times longer to meet. */
+  #sayWhen() {
+    const { speed, paused, window_ms, window_auto_ms } = this.app.state.last('settings') ?? {};
+    const wait = (window_ms ?? window_auto_ms) / 1000 / speed;
+    if (!paused && wait > LONG_S) this.app.toast(`At this speed the waves meet in ${seconds(wait, 2)}.`);
+  }
+
   #pressed() {
     this.hints.pressed();
+    this.#sayWhen();
     const places = this.places();
     this.#group = places.length > 1 ? places : places.slice(-1);
     const last = this.#group[this.#group.length - 1];

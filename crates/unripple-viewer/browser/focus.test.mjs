@@ -131,6 +131,7 @@ test('a tap in slow motion has its focus', async (t) => {
   const lift = await press(page, PLACE);
   await setTimeout(TAP_MS);
   await lift();
+  assert.match(await page.locator('#toasts').innerText(), /At this speed the waves meet in [\d.]+ s/);
   const { before, instants: [focus] } = await focuses(page, await touch(), [PLACE]);
   const found = await largest(page);
   await shoot(page, 'tap');
