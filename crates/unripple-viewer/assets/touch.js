@@ -9,7 +9,7 @@ const KEY_FINGER = 20;
 const HELD_MS = 5000;
 
 // Whoever waits longer for a focus would think that nothing happens.
-const LONG_S = 3;
+const LONG_S = 2;
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
