@@ -1,4 +1,4 @@
-//! Signal processing: synthesis of modal responses, spectra, convolution, resampling, the vibrotactile detection threshold.
+//! Signal processing: synthesis of modal responses, spectra, convolution, resampling, the vibrotactile detection threshold, A-weighting.
 //!
 //! Signals are slices of samples and modes are poles; surfaces, targets and devices are not known here. What only
 //! measurements need (sweeps, deconvolution, quality of responses) is in `unripple-calibrate`, what runs in real time in
@@ -9,7 +9,8 @@
 //! [`ModalSynth`] computes impulse responses from the poles of modes. A [`Convolver`] keeps the Fourier transforms of
 //! signals that are convolved several times, [`convolve()`] does one convolution, [`resample()`] changes the sample rate. A
 //! [`Threshold`] is the displacement that a fingertip just feels, against frequency, and a [`Weighting`] is the filter
-//! that expresses a displacement in multiples of it. [`Complex`] is the type of spectra; the other functions are small.
+//! that expresses a displacement in multiples of it. [`RateOfChange`] and [`a_weighting()`] are for
+//! sound pressure. [`Complex`] is the type of spectra; the other functions are small.
 //!
 //! ```
 //! use unripple_core::Pole;
@@ -37,6 +38,7 @@ mod integral;
 mod interpolate;
 mod kernel;
 mod resample;
+mod sound;
 mod special;
 mod spectrum;
 mod statistics;
@@ -50,6 +52,7 @@ pub use error::DspError;
 pub use integral::integral;
 pub use realfft::num_complex::Complex;
 pub use resample::resample;
+pub use sound::{REFERENCE_PRESSURE, RateOfChange, a_weighting};
 pub use special::{bessel_i0, bessel_j, kaiser, sinc};
 pub use spectrum::{band_energies, share_above};
 pub use statistics::{mean_square, median, rms};
