@@ -169,7 +169,7 @@ pub(crate) fn bounded(what: &'static str, found: usize) -> Result<(), FieldError
 }
 
 /// Checks that a drive has the channels and the sample rate of these responses.
-fn check(responses: &Responses, drive: &Drive) -> Result<(), FieldError> {
+pub(crate) fn check(responses: &Responses, drive: &Drive) -> Result<(), FieldError> {
     let names: Vec<&str> = responses.ports().iter().map(|port| port.name.as_str()).collect();
     let rate = responses.conditions().rate;
     require("sample rate of the responses (Hz)", rate.is_finite() && rate > 0.0, "a positive number", rate)?;

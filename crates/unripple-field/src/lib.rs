@@ -7,7 +7,7 @@
 //!
 //! [`Field`] is the motion that a drive causes, as traces at points and snapshots on a [`Grid`]; [`Aim`] says where and
 //! when a focus should be; [`measure()`] evaluates it, in velocity, in displacement and as felt above a [`Threshold`].
-//! Fields of many drives share a [`Readout`].
+//! Fields of many drives share a [`Readout`]. [`Radiated`] is how loud a drive is.
 //!
 //! ```
 //! use unripple_linalg::Mat;
@@ -59,6 +59,8 @@ mod measure;
 mod modal;
 mod motion;
 mod pulse;
+mod quadrature;
+mod radiated;
 mod reach;
 mod reading;
 mod readout;
@@ -75,6 +77,7 @@ pub use figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
 pub use grid::Grid;
 pub use instant::Instant;
 pub use measure::measure;
+pub use radiated::{Listener, Pressure, Radiated};
 pub use reach::Reach;
 pub use readout::Readout;
 pub use source::Trace;

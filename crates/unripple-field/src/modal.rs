@@ -20,7 +20,7 @@ pub(crate) const STATES: usize = 1 << 22;
 
 /// Largest number of readout weights of a block, 128 MiB of them in each thread: with more than 65 536
 /// modes, blocks have fewer points. With twice this value, twice the memory.
-const READ: usize = 1 << 24;
+pub(crate) const READ: usize = 1 << 24;
 
 /// Largest number of readout weights that are cached between surveys, half a GiB of them; if there are more,
 /// they are computed again for each block of time. Twice as many take a GiB.

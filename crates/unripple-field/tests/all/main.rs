@@ -9,3 +9,4 @@ mod felt;
 mod oracle;
 mod property;
 mod small;
+mod sound;
