@@ -1,6 +1,6 @@
 //! Metrics of a drive, as numbers with units.
 
-use crate::{Grid, Snapshot};
+use crate::{Grid, Similarity, Snapshot};
 use serde::Serialize;
 use unripple_core::Point;
 
@@ -26,6 +26,9 @@ pub struct Measured {
     /// The highest felt level at any point outside the focal discs over all time spans evaluated, in dB
     /// above the threshold of touch; `None` without such points, or if none of them moves.
     pub felt_outside_db: Option<f64>,
+    /// How alike the images of the vibration and of the targets are; `None` for sampled responses, which are on no grid, without targets,
+    /// and where nothing moves.
+    pub ssim: Option<Similarity>,
     /// Maps and snapshots of the field; not part of the report.
     #[serde(skip)]
     pub maps: Maps,

@@ -4,6 +4,7 @@ use crate::aim::{Resolved, last_period, segments};
 use crate::felt::{AllFelt, decibels, felt};
 use crate::field::bounded;
 use crate::figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
+use crate::similarity::Similarity;
 use crate::source::{Quantity, Survey, Trace};
 use crate::spot::Spot;
 use crate::{Aim, Field, FieldError, MeasureOptions, pulse};
@@ -52,7 +53,8 @@ impl Field<'_> {
         };
         let fast: Vec<f64> = resolved.iter().zip(&traces).map(within).collect();
         let radius = field.conditions.focal_radius();
-        let outside = outside(field.points(), &resolved, radius);
+        let centres: Vec<Point> = resolved.iter().flat_map(|aim| aim.points.iter().copied()).collect();
+        let outside = outside(field.points(), &centres, radius);
         let segments = segments(&spans);
         let instants: Vec<usize> =
             resolved.iter().map(|aim| aim.instant).chain(peaks.iter().map(|p| p.extreme)).collect();
@@ -80,6 +82,7 @@ impl Field<'_> {
             outside_points: outside.iter().filter(|out| **out).count(),
             outside_share: outside.iter().filter(|out| **out).count() as f64 / outside.len().max(1) as f64,
             felt_outside_db: loudest(&felt.peak, &outside),
+            ssim: Similarity::surveyed(field.grid(), &survey.tallies, &centres, radius),
             maps: maps(field, survey, felt.peak, outside, &instants),
         })
     }
@@ -156,9 +159,8 @@ impl Peaks {
     }
 }
 
-/// Whether each point is farther than `radius` from every point of every aim.
-fn outside(points: &[Point], aims: &[Resolved], radius: f64) -> Vec<bool> {
-    let centres: Vec<Point> = aims.iter().flat_map(|aim| aim.points.iter().copied()).collect();
+/// Whether each point is farther than `radius` from every centre of a focal disc.
+fn outside(points: &[Point], centres: &[Point], radius: f64) -> Vec<bool> {
     points.par_iter().map(|p| centres.iter().all(|centre| centre.distance(*p) > radius)).collect()
 }
 
