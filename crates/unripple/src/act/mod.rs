@@ -24,6 +24,7 @@ mod power;
 mod readouts;
 mod report;
 mod send;
+mod sound;
 mod strength;
 mod window;
 
@@ -42,6 +43,7 @@ pub use power::power;
 pub use readouts::{CELLS, Readouts};
 pub use report::{Channel, CoilHeat, Followed, Report, Stroked, unit};
 pub use send::Sent;
+pub use sound::{Hearing, LISTEN_M, Sound};
 pub use strength::{DecidedBy, Headroom, Strength};
 pub use window::{chosen_among, chosen_window, lasting, recommended_window, windows};
 

@@ -8,9 +8,9 @@ mod unscaled;
 pub use heat::CoilHeat;
 pub use played::{Followed, Stroked};
 
-use super::{Felt, Judged, Note, Strength};
+use super::{Felt, Judged, Note, Sound, Strength};
 use crate::core::{Actuator, ActuatorKind, CoilDrive, Drive, Surface};
-use crate::field::{DriveFigures, SilenceFigures, TakenOn, TargetFigures};
+use crate::field::{DriveFigures, SilenceFigures, Similarity, TakenOn, TargetFigures};
 use crate::focus::Focused;
 use crate::physics::design::Linearity;
 use serde::Serialize;
@@ -66,6 +66,13 @@ pub struct Report {
     /// period; absent where [`power()`](crate::act::power()) cannot determine it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_mechanical_power_w: Option<f64>,
+    /// Structural similarity of the vibration, as an image, and of the targets; absent on a library, for waveforms and strokes, and where
+    /// nothing moves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ssim: Option<Similarity>,
+    /// Sound pressure level above the surface; absent for waveforms and strokes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sound: Option<Sound>,
     /// Mean heat in the coils; absent if the surface has no coils.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coil_heat: Option<CoilHeat>,
@@ -132,6 +139,8 @@ impl Report {
             fingers: Vec::new(),
             linearity: judged.linearity,
             mean_mechanical_power_w: judged.power,
+            ssim: measured.ssim,
+            sound: None,
             coil_heat: CoilHeat::of(surface, drive, measured.drive.duration_s),
             drive: measured.drive.clone(),
             level: None,

@@ -2,8 +2,8 @@
 
 use super::{CoilHeat, Report, played};
 use crate::Touch;
-use crate::act::{Felt, at_most, note};
-use crate::field::{TakenOn, TargetFigures, Threshold};
+use crate::act::{Felt, Sound, at_most, note};
+use crate::field::{Similarity, TakenOn, TargetFigures, Threshold};
 use std::fmt::Write;
 
 impl Report {
@@ -33,6 +33,9 @@ impl Report {
             let _ = writeln!(text, "\n{}", finger_line(finger));
         }
         let _ = writeln!(text, "\n{}", self.drive_line());
+        for line in [self.ssim_line(), self.sound_line()].into_iter().flatten() {
+            let _ = writeln!(text, "{line}");
+        }
         if let Some(line) = self.level_line() {
             let _ = writeln!(text, "{line}");
         }
@@ -57,6 +60,9 @@ impl Report {
             let _ = writeln!(text, "{}\n", finger_line(finger));
         }
         if let Some(line) = self.felt_line() {
+            let _ = writeln!(text, "{line}\n");
+        }
+        for line in [self.ssim_line(), self.sound_line()].into_iter().flatten() {
             let _ = writeln!(text, "{line}\n");
         }
         let _ = writeln!(text, "## Drive\n\n{}\n", self.drive_line());
@@ -182,6 +188,20 @@ impl Report {
         Some(format!(
             "{of}: {level} threshold: {what} (thresholds differ between persons by about ±{persons} dB)"
         ))
+    }
+
+    /// The line on how alike the vibration and the targets are.
+    fn ssim_line(&self) -> Option<String> {
+        let Similarity { peak_velocity, rms_velocity, target_gaussian_m } = self.ssim?;
+        Some(format!(
+            "structural similarity: {peak_velocity:.3} of the map of largest velocities, {rms_velocity:.3} of that of rms velocities, with a \
+             Gaussian of standard deviation {:.2} mm at every target",
+            target_gaussian_m * 1e3
+        ))
+    }
+
+    fn sound_line(&self) -> Option<String> {
+        self.sound.as_ref().map(Sound::text)
     }
 
     fn level_line(&self) -> Option<String> {

@@ -20,6 +20,7 @@ impl Report {
         self.felt_outside_db = None;
         self.linearity = None;
         self.mean_mechanical_power_w = None;
+        self.sound = self.sound.map(|sound| sound.without_scale());
         self.level = self.level.map(|level| level.allowing(None));
         self.notes.retain(|note| note.topic != "linear theory");
         self
