@@ -42,6 +42,10 @@ fn check(options: &FocusOptions) -> Result<(), CliError> {
             (waves || path) && !options.finger.is_empty(),
             "--waveform, --path: expected no --finger beside them, found one",
         ),
+        (
+            (waves || path) && options.listen_m.is_some(),
+            "--waveform, --path: expected no --listen-m beside them, found one",
+        ),
     ];
     match wrong.into_iter().find(|(is_so, _)| *is_so) {
         Some((_, text)) => Err(CliError::Input(text.into())),
@@ -80,6 +84,7 @@ fn ask(common: &Common, options: &FocusOptions) -> Result<focus::Ask, CliError> 
         bear_fingers_m: places(&options.bear_finger, "--bear-finger")?,
         on: options.on.as_ref().map(Into::into),
         judge_hz: options.judge_hz,
+        listen_m: options.listen_m,
         output: Some(options.output.clone()),
         no_figures: options.figures.no_figures,
         columns: options.figures.columns,

@@ -5,6 +5,7 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("top_hz", "--max-hz"),
     ("pitch_m", "--grid-mm"),
     ("points_m", "--at"),
+    ("listen_m", "--listen-m"),
     ("peak_m", "--peak-um"),
     ("output", "-o"),
     ("name", "NAME"),

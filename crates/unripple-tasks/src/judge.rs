@@ -1,8 +1,8 @@
 //! Responses from the model of a surface, and evaluation of a drive's field on it.
 
 use crate::{Progress, Solved, TaskError, go_on};
-use unripple::act;
-use unripple::core::{Contact, Responses, Surface};
+use unripple::act::{self, Hearing, Sound};
+use unripple::core::{Contact, Drive, Responses, Surface};
 use unripple::field::{Aim, Field};
 
 pub use unripple::act::{CELLS, JUDGED_BANDS, Judged, Judging, Note, Reached, accuracy, reached};
@@ -68,6 +68,35 @@ pub(crate) fn reaches(surface: &Surface, judge_hz: Option<f64>) -> Result<(), Ta
         )),
         None => Ok(()),
     }
+}
+
+/// The height of the listener above the surface, in m: the requested one, or by default [`act::LISTEN_M`]. Nearer than 5 cm the air moves with
+/// the sheet, and the integral over it would need ever more points.
+///
+/// # Errors
+/// [`TaskError::Ask`] of a height below 0.05 m or above 100 m.
+pub(crate) fn listening(listen_m: Option<f64>) -> Result<f64, TaskError> {
+    match listen_m {
+        Some(height) if !(0.05..=100.0).contains(&height) => {
+            Err(TaskError::ask("listen_m", "a height from 0.05 to 100 m", height))
+        }
+        asked => Ok(asked.unwrap_or(act::LISTEN_M)),
+    }
+}
+
+/// The sound of a drive on a surface that moves as `responses` say, `listen_m` metres above its middle; `period` (s) is that of a repeated
+/// drive.
+///
+/// # Errors
+/// [`TaskError::Ask`] of a height that makes no sense; those of [`act::Hearing`].
+pub(crate) fn heard(
+    surface: &Surface,
+    responses: &Responses,
+    listen_m: Option<f64>,
+    drive: &Drive,
+    period: Option<f64>,
+) -> Result<Sound, TaskError> {
+    Ok(Hearing::new(surface, responses, listening(listen_m)?)?.sound(drive, period)?)
 }
 
 /// Evaluates the field of a drive at the places and instants `aims`; `period` (s) is that of a repeated

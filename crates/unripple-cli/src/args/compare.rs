@@ -32,6 +32,9 @@ pub struct CompareOptions {
     /// sample rate.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
+    /// Height above the middle of the surface, in m, at which the sound pressure level is computed; 0.3 by default.
+    #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
+    pub listen_m: Option<f64>,
     /// Write no pictures.
     #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
@@ -58,6 +61,7 @@ impl CompareOptions {
             level: self.targets.level()?,
             window_s: seconds(self.window_ms, "--window-ms")?,
             judge_hz: self.judge_hz,
+            listen_m: self.listen_m,
             // They take half of the time, and no table shows them.
             no_tradeoffs: !(common.json || self.output.is_some()),
             no_figures: self.no_figures,

@@ -36,6 +36,9 @@ pub struct FieldOptions {
     /// sample rate.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
+    /// Height above the middle of the surface, in m, at which the sound pressure level is computed; 0.3 by default.
+    #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
+    pub listen_m: Option<f64>,
     #[command(flatten)]
     pub figures: FigureOptions,
     /// Folder for the report, snapshot, map of peaks and animation; without it only the report is printed.
@@ -63,6 +66,7 @@ impl FieldOptions {
             fingers_m: places(&self.finger, "--finger")?,
             period_s: seconds(self.period_ms, "--period-ms")?,
             judge_hz: self.judge_hz,
+            listen_m: self.listen_m,
             output: self.output.clone(),
             no_figures: self.figures.no_figures,
             columns: self.figures.columns,

@@ -30,6 +30,9 @@ pub struct Ask {
     pub window_s: Option<f64>,
     /// Evaluate drives on modes up to this frequency, in Hz; by default up to twice the top of the band.
     pub judge_hz: Option<f64>,
+    /// Height above the middle of the surface, in m, at which the sound pressure level is computed; by default
+    /// 0.3.
+    pub listen_m: Option<f64>,
     /// Leave out the tradeoff curves of the methods' parameters, which take half of the time, and the
     /// figure that shows them. On several surfaces the curves are always left out, and the figure shows the
     /// methods alone.

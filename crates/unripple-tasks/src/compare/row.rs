@@ -5,7 +5,7 @@ use super::trade::{Trade, traded};
 use crate::TaskError;
 use serde::Serialize;
 use std::time::Instant;
-use unripple::act::{Act, Note, Strength, power};
+use unripple::act::{Act, Note, Sound, Strength, power};
 use unripple::field::{DriveFigures, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
 
@@ -34,6 +34,8 @@ pub struct Row {
     /// Mean mechanical power that the actuators give to the sheet, in W, over the whole drive or its last period.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_mechanical_power_w: Option<f64>,
+    /// Sound pressure level above the surface.
+    pub sound: Sound,
     /// Level of the drive relative to its limits.
     pub level: Strength,
     /// Notes on the drive.
@@ -66,6 +68,7 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     let Measured { targets, drive: figures, .. } =
         field.measure(&sent.aims, sent.period).map_err(TaskError::input)?;
     let mean_mechanical_power_w = power(surface, &field, figures.duration_s)?;
+    let sound = ground.hearing.sound(&sent.drive, sent.period)?;
     Ok(Row {
         method: options.method.name(),
         plan_s,
@@ -77,6 +80,7 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
         targets,
         drive: figures,
         mean_mechanical_power_w,
+        sound,
         level: sent.strength,
         notes,
         trade,

@@ -2,7 +2,7 @@
 
 use super::{Ask, FailedSurface, On, Report, compared, figure};
 use crate::figures::Columns;
-use crate::judge::reaches;
+use crate::judge::{listening, reaches};
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, conditions};
@@ -70,6 +70,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 /// surface by itself.
 fn check(ask: &Ask, surfaces: &[Surface]) -> Result<(), TaskError> {
     let window = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+    listening(ask.listen_m)?;
     if let [surface] = surfaces {
         reaches(surface, ask.judge_hz)?;
         let conditions = conditions(surface);

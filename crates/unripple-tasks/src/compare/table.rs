@@ -3,7 +3,7 @@
 use super::compared::Compared;
 use super::row::Row;
 use std::fmt::Write;
-use unripple::act::{Level, Note};
+use unripple::act::{LISTEN_M, Level, Note};
 use unripple::field::TargetFigures;
 use unripple::focus::Method;
 use unripple::physics::design::milliseconds;
@@ -15,7 +15,7 @@ const SURFACE: [&str; 4] = ["surface", "method", "window ms", "modes"];
 
 /// Headings of the figures, in the order of `figures`: what a fingertip feels, what the surface does, what
 /// that takes.
-const FIGURES: [&str; 15] = [
+const FIGURES: [&str; 16] = [
     "felt dB",
     "felt contrast",
     "felt background",
@@ -28,6 +28,7 @@ const FIGURES: [&str; 15] = [
     "peak m/s",
     "energy for peak",
     "power mW",
+    "sound dB(A)",
     "peak at limit",
     "plan ms",
     "drive ms",
@@ -157,18 +158,20 @@ impl std::fmt::Display for Table<'_> {
             }
         }
         let of = if self.several { " on the same surface" } else { "" };
+        let height = self.rows().next().map_or(LISTEN_M, |(_, row)| row.sound.at_m[2]);
         write!(
             f,
             ", simulated with modes up to {} Hz. Energy for the same peak and peak at the drive limit are relative to time \
-             reversal's{of}; power: mechanical, into the sheet, on average; felt: dB above threshold, and below the target's level; drive for the same felt level in dB over time \
-             reversal's.",
+             reversal's{of}; power: mechanical, into the sheet, on average; sound: A-weighted, {height} m above the middle, exposure \
+             level of one drive or mean level of a repeated one; felt: dB above threshold, and below the target's level; drive for the same \
+             felt level in dB over time reversal's.",
             self.judged_to()
         )
     }
 }
 
 /// The figures of a row, of its first target.
-fn figures(row: &Row) -> [String; 15] {
+fn figures(row: &Row) -> [String; 16] {
     let number = |x: Option<f64>, digits: usize| x.map_or("-".into(), |x| format!("{x:.digits$}"));
     let target = row.targets.first();
     let of = |figure: fn(&TargetFigures) -> Option<f64>| target.and_then(figure);
@@ -185,6 +188,7 @@ fn figures(row: &Row) -> [String; 15] {
         target.map_or("-".into(), |t| three(t.peak_velocity_m_s)),
         format!("{:.2}", row.energy_for_peak),
         row.mean_mechanical_power_w.map_or("-".into(), |watts| three(1e3 * watts)),
+        number(row.sound.a_weighted_db(), 1),
         three(row.peak_at_limit),
         format!("{:.1}", row.plan_s * 1e3),
         format!("{:.2}", row.drive_s * 1e3),

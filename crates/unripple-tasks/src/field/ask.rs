@@ -48,6 +48,9 @@ pub struct Ask {
     /// Compute the field with modes up to this frequency, in Hz; by default up to twice the top of the band, at most 0.45 of the
     /// sample rate.
     pub judge_hz: Option<f64>,
+    /// Height above the middle of the surface, in m, at which the sound pressure level is computed; by default
+    /// 0.3.
+    pub listen_m: Option<f64>,
     /// Folder for the report, snapshot, map of peaks and animation; by default no file is written.
     pub output: Option<PathBuf>,
     /// Write no figures and no animation.
@@ -75,6 +78,7 @@ impl Default for Ask {
             fingers_m: Vec::new(),
             period_s: None,
             judge_hz: None,
+            listen_m: None,
             output: None,
             no_figures: false,
             columns: None,

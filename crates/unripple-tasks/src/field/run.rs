@@ -143,6 +143,7 @@ fn measured(
         report.judged_on = Some(told);
     }
     judging.iter().for_each(|judging| judging.tell(&surface, &mut report));
+    report.sound = Some(judge::heard(&surface, responses, ask.listen_m, &drive, period)?);
     report.fingers = act::felt(&contacts, &surface, [responses, &models.free], &drive, until)?;
     if unscaled {
         report = report.without_scale();

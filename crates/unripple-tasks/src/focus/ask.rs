@@ -77,6 +77,9 @@ pub struct Ask {
     /// Evaluate the drive with modes up to this frequency, in Hz; by default up to twice the top of the band, at most 0.45 of the
     /// sample rate.
     pub judge_hz: Option<f64>,
+    /// Height above the middle of the surface, in m, at which the sound pressure level is computed; by default
+    /// 0.3.
+    pub listen_m: Option<f64>,
     /// Folder for drive.wav, report.json, report.md and figures. An existing folder is replaced only if it
     /// holds nothing but the unchanged files of an earlier run.
     pub output: Option<PathBuf>,
@@ -112,6 +115,7 @@ impl Default for Ask {
             bear_fingers_m: Vec::new(),
             on: None,
             judge_hz: None,
+            listen_m: None,
             output: None,
             no_figures: false,
             columns: None,

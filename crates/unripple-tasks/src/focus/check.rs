@@ -54,6 +54,7 @@ pub(super) fn possible(
     let refused = |error: FocusError| TaskError::from(ActError::from(error));
     Target::check(targets, &surface.outline).map_err(refused)?;
     judge::reaches(plant, ask.judge_hz)?;
+    judge::listening(ask.listen_m)?;
     let window = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
     // Where no window is given, any that makes sense stands for the one that will be chosen.
     settings(ask, surface, window.unwrap_or(Options::default().window))?.check().map_err(refused)?;

@@ -11,7 +11,6 @@ use unripple::act::{self, Act, Aware, Note};
 use unripple::core::{Decay, Responses, Surface};
 use unripple::focus::{LossCorrection, Method, Options};
 use unripple::physics::Medium;
-use unripple::physics::design::Recommended;
 
 /// Computes a drive that focuses on points and shapes, evaluates it, and writes it to a folder if the
 /// request names one.
@@ -90,7 +89,7 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     announce(ask, &source, plant.as_ref(), progress);
     progress.stage("responses");
     let (surface, responses, stored) = source.respond(&places, ask.between)?;
-    let (window, chosen) = window(ask, (&surface, &responses), &solved, progress)?;
+    let (window, why) = window(ask, (&surface, &responses), &solved, progress)?;
     let settings = settings(ask, &surface, window)?;
     let aware = aware(ask, &surface)?;
     go_on(progress)?;
@@ -100,7 +99,6 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let focused = focused.map_err(|error| of_window(error.into(), ask.window_s.is_some()))?;
     let restored = aware.note(&responses, &targets, &settings, &focused)?;
     go_on(progress)?;
-
     let judged_surface = plant.as_ref().unwrap_or(&surface);
     let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", judged_surface)?;
     progress.stage(judge::RESPONSES);
@@ -120,10 +118,10 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let (focused, drive) = (sent.focused, sent.drive);
     let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
     let error = act::response_error(under, settings.window);
-    (report.level, report.response_error) = (Some(sent.strength), error);
+    let sound = judge::heard(judged_surface, under, ask.listen_m, &drive, sent.period)?;
+    (report.level, report.response_error, report.sound) = (Some(sent.strength), error, Some(sound));
     report.fingers = act::felt(&contacts, judged_surface, [under, free], &drive, sent.until)?;
-    let window = chosen.map(|chosen| Note { topic: "window", text: chosen.text() });
-    report.notes.extend(window.into_iter().chain(restored));
+    report.notes.extend(why.into_iter().chain(restored));
     models.iter().for_each(|(_, judging)| judging.tell(judged_surface, &mut report));
     stored.into_iter().for_each(|of| tell_of_library(&mut report, of, act::nearby(&focused, &targets)));
     if unscaled.is_some() {
@@ -164,14 +162,13 @@ fn tell_of_library(report: &mut Report, (told, notes): (String, Vec<Note>), near
     report.judged_on.get_or_insert(told);
 }
 
-/// The window in s: the requested one, or the one recommended for the surface and its responses, which is
-/// then returned as well.
+/// The window in s: the requested one, or the one recommended for the surface and its responses, then with a note that says why.
 fn window(
     ask: &Ask,
     (surface, responses): (&Surface, &Responses),
     solved: &Solved,
     progress: &mut dyn Progress,
-) -> Result<(f64, Option<Recommended>), TaskError> {
+) -> Result<(f64, Option<Note>), TaskError> {
     let asked = ask.window_s;
     if asked.is_none() {
         go_on(progress)?;
@@ -180,7 +177,7 @@ fn window(
     let chosen = asked.is_none().then(|| solved.window(surface, responses));
     let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
     carries(responses.conditions(), window, "window_s")?;
-    Ok((window, chosen))
+    Ok((window, chosen.map(|chosen| Note { topic: "window", text: chosen.text() })))
 }
 
 /// Names of the fields that need a model, and whether the request sets them.

@@ -91,6 +91,8 @@ pub(crate) fn judge<T>(
     drop(field);
     let mut report = Report::new("focus", &surface, &played.drive, &judged);
     report.method = Some(played.method);
+    // An image of the whole time says little of waveforms, and the grid is another than that of foci.
+    report.ssim = None;
     let emission = &surface.emission;
     let limits = Options { limit: emission.limit, rms_limit: emission.rms_limit, ..Options::default() };
     let asked = Strength::of(&played.drive, &limits, DecidedBy::Asked);

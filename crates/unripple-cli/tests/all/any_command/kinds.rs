@@ -55,6 +55,7 @@ const FOCUS: &[(&str, Value)] = &[
     ("--bear-finger", Place),
     ("--on", One(&["surface.toml", "hudin-2012", "lib"])),
     ("--judge-hz", Number(50.0, 5e3)),
+    ("--listen-m", Number(0.01, 10.0)),
     ("--between", One(&["kernel", "nearest", "linear"])),
 ];
 
@@ -124,6 +125,7 @@ pub const KINDS: &[Kind] = &[
         perhaps: &[
             ("--window-ms", Number(0.5, 60.0)),
             ("--judge-hz", Number(50.0, 5e3)),
+            ("--listen-m", Number(0.01, 10.0)),
             ("--peak-um", Number(1e-3, 1e3)),
         ],
     },
@@ -136,6 +138,7 @@ pub const KINDS: &[Kind] = &[
             ("--finger", Place),
             ("--period-ms", Number(1.0, 300.0)),
             ("--judge-hz", Number(50.0, 5e3)),
+            ("--listen-m", Number(0.01, 10.0)),
             ("--frames", Whole(0, 30)),
             ("--movie-ms", One(&["0,3", "3,0", "-1,1", "0,1e9", "nan,1", "5"])),
             ("-o", One(&["seen", "out", "lib"])),
