@@ -63,6 +63,8 @@ class Focusing:
             Places of fingers that rest on the surface while the drive is evaluated, and whether it is computed for the surface with them.
         on, judge_hz
             Another surface to evaluate the drive on, and up to which frequency.
+        listen_m
+            Height above the middle of the surface at which the sound pressure level is computed, in m; 0.3 by default.
         output, no_figures, columns
             Folder for drive, report and figures, as the command line writes it.
 
@@ -166,6 +168,8 @@ class Focusing:
             Places in mm of fingers that rest on the surface.
         judge_hz
             Highest frequency of the modes in Hz; by default up to twice the top of the band.
+        listen_m
+            Height above the middle of the surface at which the sound pressure level is computed, in m; 0.3 by default.
         output, no_figures, columns, movie_ms, frames
             Folder for report, pictures and animation, as the command line writes it.
 

@@ -205,7 +205,7 @@ class Reporting:
             A key and the values that it is to have, each on a surface of its own: ``{"tension_n_per_m": [200, 300]}``.
         no_tradeoffs
             Leave out the tradeoff that each method's parameter controls, which takes half of the time.
-        peak_um, felt_db, full_limit, window_ms, judge_hz, output, no_figures, columns
+        peak_um, felt_db, full_limit, window_ms, judge_hz, listen_m, output, no_figures, columns
             As for :meth:`focus`.
 
         Returns

@@ -188,6 +188,7 @@ class FocusOptions(TargetOptions, JudgedOptions, total=False):
     """Options of `focus`."""
 
     on: SurfaceLike | None
+    listen_m: float | None
     method: Method | None
     between: Between | None
     losses: Losses | None
@@ -234,6 +235,7 @@ class StrokeOptions(JudgedOptions, total=False):
 class CompareOptions(TargetOptions, JudgedOptions, total=False):
     """Options of `compare`."""
 
+    listen_m: float | None
     method: Method | Sequence[Method] | None
     methods: Sequence[Method] | None
     vary: str | Mapping[str, Sequence[Any]] | None
@@ -256,6 +258,7 @@ class FieldOptions(SurfaceOptions, FigureOptions, total=False):
     period_ms: float | None
     period_s: float | None
     judge_hz: float | None
+    listen_m: float | None
     movie_ms: Row | None
     movie_s: Row | None
     frames: int | None
