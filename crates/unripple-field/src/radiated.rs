@@ -16,7 +16,7 @@ use unripple_linalg::{Accum, Mat, Par, multiply, product};
 const SIDE: usize = 8;
 
 /// Nodes of the surface whose shapes are in memory at once. With twice this value, twice the memory.
-const NODES: usize = 256;
+const NODES: usize = 128;
 
 /// Length of a panel of the integral over the surface, as a share of the shortest wavelength: that one is integrated within 1 %. Half as long,
 /// within 0.01 %, for four times the work.

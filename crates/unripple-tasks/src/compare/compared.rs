@@ -9,7 +9,7 @@ use crate::target::targets;
 use crate::window::{carries, of_window};
 use crate::{Progress, Solved, TaskError, cost, go_on, judge};
 use serde::Serialize;
-use unripple::act::{Hearing, Readouts, chosen_window};
+use unripple::act::{Readouts, chosen_window};
 use unripple::core::{Responses, Surface};
 use unripple::focus::{Method, Options};
 
@@ -75,8 +75,7 @@ pub(super) fn on(
         surface,
         known: &known,
         plant: &plant,
-        on: &Readouts::of(&plant),
-        hearing: &Hearing::new(surface, &plant, judge::listening(ask.listen_m)?)?,
+        on: &Readouts::of(&plant).heard_at(judge::listening(ask.listen_m)?),
         targets: &targets,
         options: &settings(surface, window),
         level: ask.level.level()?,

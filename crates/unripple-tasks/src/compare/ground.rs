@@ -1,6 +1,6 @@
 //! Data that the drives of all methods of a comparison share.
 
-use unripple::act::{Hearing, Level, Readouts};
+use unripple::act::{Level, Readouts};
 use unripple::core::{Responses, Surface};
 use unripple::focus::{Options, Target};
 
@@ -14,8 +14,6 @@ pub(super) struct Ground<'a> {
     pub plant: &'a Responses,
     /// Readouts of `plant`, computed once for all methods.
     pub on: &'a Readouts<'a>,
-    /// What a listener hears of `plant`, prepared once for all methods.
-    pub hearing: &'a Hearing<'a>,
     /// The targets of all methods.
     pub targets: &'a [Target],
     /// Options of all methods: window and drive limits.

@@ -68,7 +68,7 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     let Measured { targets, drive: figures, .. } =
         field.measure(&sent.aims, sent.period).map_err(TaskError::input)?;
     let mean_mechanical_power_w = power(surface, &field, figures.duration_s)?;
-    let sound = ground.hearing.sound(&sent.drive, sent.period)?;
+    let sound = on.hearing(surface)?.sound(&sent.drive, sent.period)?;
     Ok(Row {
         method: options.method.name(),
         plan_s,

@@ -108,7 +108,7 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let free = models.as_ref().map_or(&responses, |(models, _)| &models.free);
     let under = models.as_ref().and_then(|(models, _)| models.under.as_ref()).unwrap_or(free);
     let act = Act { surface: judged_surface, responses: under, targets: &targets, options: &settings, level };
-    let on = act.readouts();
+    let on = act.readouts().heard_at(judge::listening(ask.listen_m)?);
     go_on(progress)?;
     progress.stage("level");
     let sent = act.send(&focuser, focused, &on)?;
@@ -117,9 +117,8 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     let judged = judge::seen(sent.until, progress, || act.judge(&sent, &on))?;
     let (focused, drive) = (sent.focused, sent.drive);
     let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
-    let error = act::response_error(under, settings.window);
-    let sound = judge::heard(judged_surface, under, ask.listen_m, &drive, sent.period)?;
-    (report.level, report.response_error, report.sound) = (Some(sent.strength), error, Some(sound));
+    (report.level, report.response_error) =
+        (Some(sent.strength), act::response_error(under, settings.window));
     report.fingers = act::felt(&contacts, judged_surface, [under, free], &drive, sent.until)?;
     report.notes.extend(why.into_iter().chain(restored));
     models.iter().for_each(|(_, judging)| judging.tell(judged_surface, &mut report));

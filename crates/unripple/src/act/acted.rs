@@ -59,14 +59,15 @@ impl<'a> Act<'a> {
         sent.notes.iter().cloned().chain(gave_up).collect()
     }
 
-    /// Evaluates the field of a drive on [`Act::responses`].
+    /// Evaluates the field of a drive on [`Act::responses`], and its sound.
     ///
     /// # Errors
-    /// Those of [`Readouts::fine`] and [`judge()`].
+    /// Those of [`Readouts::fine`], [`Readouts::hearing`], [`judge()`] and [`Hearing::sound`](super::Hearing::sound).
     pub fn judge(&self, sent: &Sent, on: &Readouts<'_>) -> Result<Judged, ActError> {
         let field = on.fine()?.field(&sent.drive)?;
         let mut judged = judge(self.surface, &field, &sent.aims, sent.period, sent.traced)?;
         judged.notes.extend(self.notes(sent));
+        judged.sound = Some(on.hearing(self.surface)?.sound(&sent.drive, sent.period)?);
         Ok(judged)
     }
 }

@@ -1,7 +1,7 @@
 //! Evaluation of the field of a drive on a surface: metrics, traces, maps.
 
 use super::note::{self, Note};
-use super::{ActError, power};
+use super::{ActError, Sound, power};
 use crate::core::{Point, Surface};
 use crate::field::{Aim, Field, Measured, Reach, Trace};
 use crate::physics::design::{Linearity, linearity};
@@ -20,6 +20,8 @@ pub struct Judged {
     /// Mean mechanical power into the sheet over the drive or its last period, in W; `None` where
     /// [`power()`] cannot determine it.
     pub power: Option<f64>,
+    /// Sound above the surface; `None` from [`judge()`], which knows no listener.
+    pub sound: Option<Sound>,
     /// Warnings, such as where linear theory no longer holds.
     pub notes: Vec<Note>,
 }
@@ -45,7 +47,7 @@ pub fn judge(
     let notes = note::all(surface, &measured, reach.displacement, &found);
     let linearity = reach.steepness.map(|_| found);
     let power = power(surface, field, measured.drive.duration_s)?;
-    Ok(Judged { measured, traces, until, linearity, power, notes })
+    Ok(Judged { measured, traces, until, linearity, power, sound: None, notes })
 }
 
 /// The last instant at which a field is known, in seconds.

@@ -1,7 +1,7 @@
-//! Grids on which levels and metrics of drives are evaluated, computed once for all drives.
+//! Grids on which levels and metrics of drives are evaluated, and a listener above them, computed once for all drives.
 
-use super::ActError;
-use crate::core::Responses;
+use super::{ActError, Hearing, LISTEN_M};
+use crate::core::{Responses, Surface};
 use crate::field::Readout;
 use std::sync::OnceLock;
 
@@ -27,6 +27,9 @@ pub struct Readouts<'a> {
     fewest: OnceLock<Readout<'a>>,
     coarse: OnceLock<Readout<'a>>,
     fine: OnceLock<Readout<'a>>,
+    /// Height of the listener, in metres.
+    height: f64,
+    hearing: OnceLock<Hearing<'a>>,
 }
 
 impl<'a> Readouts<'a> {
@@ -36,6 +39,26 @@ impl<'a> Readouts<'a> {
         Self::with_cells(responses, CELLS)
     }
 
+    /// The same with the listener `height` metres above the middle of the surface, in place of [`LISTEN_M`].
+    #[must_use]
+    pub fn heard_at(self, height: f64) -> Self {
+        Self { height, hearing: OnceLock::new(), ..self }
+    }
+
+    /// What a listener above the middle of `surface` hears, which moves as these responses say; prepared when it is first needed.
+    ///
+    /// # Errors
+    /// Those of [`Hearing::new`].
+    pub fn hearing(&self, surface: &Surface) -> Result<&Hearing<'a>, ActError> {
+        match self.hearing.get() {
+            Some(hearing) => Ok(hearing),
+            None => {
+                let hearing = Hearing::new(surface, self.responses, self.height)?;
+                Ok(self.hearing.get_or_init(|| hearing))
+            }
+        }
+    }
+
     /// Readouts whose grid for metrics has half as many cells along each side: for searches that compare many drives, in a fourth of the
     /// time.
     pub fn thinned(responses: &'a Responses) -> Self {
@@ -43,7 +66,15 @@ impl<'a> Readouts<'a> {
     }
 
     fn with_cells(responses: &'a Responses, cells: f64) -> Self {
-        Self { responses, cells, fewest: OnceLock::new(), coarse: OnceLock::new(), fine: OnceLock::new() }
+        Self {
+            responses,
+            cells,
+            fewest: OnceLock::new(),
+            coarse: OnceLock::new(),
+            fine: OnceLock::new(),
+            height: LISTEN_M,
+            hearing: OnceLock::new(),
+        }
     }
 
     /// Readout on the grid for metrics, [`CELLS`] cells per shortest wavelength, or half as many if these are [`Readouts::thinned`].

@@ -9,7 +9,7 @@ use unripple::focus::{Method, Options, Target};
 use unripple::physics::design::papers_surface;
 use unripple_linalg::Mat;
 
-/// Points of a grid that are read at once, all but the last.
+/// Points of a grid that are read at once, all but the last. The integral of the sound reads fewer of its own at once.
 const CHUNK: usize = 256;
 
 /// Shapes that count how often whole chunks of a grid are read, by their first points.

@@ -140,7 +140,7 @@ impl Report {
             linearity: judged.linearity,
             mean_mechanical_power_w: judged.power,
             ssim: measured.ssim,
-            sound: None,
+            sound: judged.sound.clone(),
             coil_heat: CoilHeat::of(surface, drive, measured.drive.duration_s),
             drive: measured.drive.clone(),
             level: None,
