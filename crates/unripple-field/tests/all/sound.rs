@@ -82,7 +82,7 @@ fn a_piston_has_the_pressure_on_its_axis_of_the_closed_form() {
             let phase = k / 2.0 * (height.hypot(radius) - height);
             let exact = 2.0 * AIR[0] * AIR[1] * tone(hz).1 * phase.sin().abs() / 2f64.sqrt();
             let apart = db(found / exact).abs();
-            assert!(apart < 0.1, "ka = {}, {height} m: {found} Pa, exactly {exact} Pa", k * radius);
+            assert!(apart < 0.05, "ka = {}, {height} m: {found} Pa, exactly {exact} Pa", k * radius);
         }
     }
 }
@@ -109,7 +109,7 @@ fn modes_of_a_plate_radiate_as_a_fine_sum_says() {
                 im += shape * (k * r).sin() / r * cell * cell;
             }
             let exact = hz * AIR[0] * tone(hz).1 * f64::hypot(re, im) / 2f64.sqrt();
-            assert!(db(found / exact).abs() < 0.1, "{numbers:?} from {above}: {found} Pa, {exact} Pa");
+            assert!(db(found / exact).abs() < 0.05, "{numbers:?} from {above}: {found} Pa, {exact} Pa");
         }
     }
 }
