@@ -1,7 +1,7 @@
 //! How loud a drive is: the sound pressure level above the surface.
 
 use super::ActError;
-use crate::core::{Drive, Point, Responses, Surface};
+use crate::core::{Drive, ModalResponses, Point, Responses, Surface};
 use crate::dsp::REFERENCE_PRESSURE;
 use crate::field::{FieldError, Listener, Pressure, Radiated};
 use crate::physics::{AIR_CELERITY, AIR_DENSITY, Medium};
@@ -58,7 +58,11 @@ impl<'a> Hearing<'a> {
     pub fn new(surface: &Surface, responses: &'a Responses, height: f64) -> Result<Self, ActError> {
         let (width, depth) = responses.conditions().outline.extent();
         let above = Point::new(width / 2.0, depth / 2.0);
-        let top = highest_hz(responses);
+        let at = [above.x, above.y, height];
+        let Responses::Modal(modal) = responses else {
+            return Ok(Self { at, radiated: Err(SCATTERED.to_owned()) });
+        };
+        let top = highest_hz(modal);
         let wavelength = Medium::of(&surface.sheet).lambda_min(top).min(AIR_CELERITY / top);
         let listener = Listener { above, height, density: AIR_DENSITY, celerity: AIR_CELERITY, wavelength };
         let radiated = match Radiated::new(responses, &listener) {
@@ -68,7 +72,7 @@ impl<'a> Hearing<'a> {
             }
             Err(error) => return Err(error.into()),
         };
-        Ok(Self { at: [above.x, above.y, height], radiated })
+        Ok(Self { at, radiated })
     }
 
     /// The sound of a drive, of its last period if it is repeated with a `period` (s).
@@ -158,14 +162,8 @@ fn level(square: f64) -> Option<f64> {
     (square > 0.0).then(|| 10.0 * (square / REFERENCE_PRESSURE.powi(2)).log10())
 }
 
-/// The highest natural frequency of modal responses (Hz), at most half the sample rate; the top of the band of sampled ones.
-fn highest_hz(responses: &Responses) -> f64 {
-    let conditions = responses.conditions();
-    match responses {
-        Responses::Modal(modal) => {
-            let highest = modal.poles.iter().map(|pole| pole.omega / TAU).fold(0.0, f64::max);
-            highest.max(conditions.band[1]).min(conditions.rate / 2.0)
-        }
-        Responses::Sampled(_) => conditions.band[1],
-    }
+/// The highest natural frequency (Hz), but at least the top of the band and at most half the sample rate.
+fn highest_hz(modal: &ModalResponses) -> f64 {
+    let highest = modal.poles.iter().map(|pole| pole.omega / TAU).fold(modal.conditions.band[1], f64::max);
+    highest.min(modal.conditions.rate / 2.0)
 }
