@@ -28,6 +28,7 @@ _FOCUS: list[dict[str, Any]] = [
     {"bear_tension_percent": 60, "method": "robust"},
     {"bear_fingers_mm": [_BEYOND], "method": "robust"},
     {"judge_hz": 1},
+    {"listen_m": 0},
     {"peak_um": -1},
     {"columns": 3},
     {"on": "no-such-surface"},

@@ -44,6 +44,10 @@ fn numbers_beyond_all_memory_are_refused_at_once() {
             "focus FILM --at 62,90 --judge-hz 1e100 -o @out",
             "--judge-hz: expected at least 1000 Hz, the top of the band, and less than",
         ),
+        (
+            "focus FILM --at 62,90 --listen-m 1000 -o @out",
+            "--listen-m: expected a height from 0.05 to 100 m, found 1000",
+        ),
         ("modes hudin-2012 --max-hz 1e100", short),
         ("respond FILM --grid-mm 30 --length-ms 1e300 -o @out", "--length-ms: expected at most 60 s, found"),
         (

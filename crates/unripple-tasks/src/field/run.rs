@@ -178,6 +178,7 @@ fn before_modes(ask: &Ask, source: &Source, drive: &Drive) -> Result<(), TaskErr
 
 /// Returns an error for numbers that make no sense on any surface.
 fn numbers(ask: &Ask) -> Result<(), TaskError> {
+    judge::listening(ask.listen_m)?;
     Columns::of(ask.columns)?;
     ask.period_s.map(|period| above_zero(period, "period_s", "s")).transpose()?;
     // Without a place there is one, where the field is strongest.
