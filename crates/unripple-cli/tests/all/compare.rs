@@ -68,7 +68,9 @@ fn all_methods_stand_side_by_side() {
         "-o",
         &focus,
     ]);
-    assert!((number(&alone, "/targets/0/contrast") / of(3, "targets/0/contrast") - 1.0).abs() < 1e-9);
+    for key in ["targets/0/contrast", "sound/a_weighted_exposure_db"] {
+        assert!((number(&alone, &format!("/{key}")) / of(3, key) - 1.0).abs() < 1e-9, "{key}");
+    }
 }
 
 #[test]
@@ -84,6 +86,7 @@ fn a_table_needs_no_folder() {
     let first =
         ["method", "felt dB", "felt contrast", "felt background", "felt worst", "drive for felt", "contrast"];
     assert_eq!(headings[..first.len()], first);
+    assert!(headings.contains(&"sound dB(A)") && text.contains("0.3 m above the middle"), "{text}");
     assert!(lines[1].starts_with("time-reversal ") && lines[2].starts_with("felt "), "{text}");
     assert!(refused(&["compare", &file], 2).contains("targets"));
     let errors =
