@@ -41,6 +41,7 @@ mod between;
 mod drift;
 mod error;
 mod fit;
+pub mod frequencies;
 pub mod measure;
 pub mod signals;
 pub mod verify;
