@@ -43,6 +43,7 @@ mod error;
 mod fit;
 pub mod frequencies;
 pub mod measure;
+pub mod ringing;
 pub mod signals;
 pub mod verify;
 

@@ -53,7 +53,7 @@ impl Computed {
         Self { hz, bending }
     }
 
-    /// Logarithms of the frequencies.
+    /// Logarithms of the frequencies in Hz.
     pub fn logs(&self) -> Vec<f64> {
         self.hz.iter().map(|hz| hz.ln()).collect()
     }
@@ -74,6 +74,7 @@ pub(super) struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
+    /// A surface whose quantities `free` are fitted.
     pub fn new(nominal: &'a Surface, free: &[Quantity]) -> Self {
         Self {
             nominal,
@@ -85,7 +86,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// The surface whose quantities are multiplied by the exponentials of `logs`.
+    /// The surface whose quantities are multiplied by the exponentials of `logs`, dimensionless, one for each.
     pub fn surface(&self, logs: &[f64]) -> Surface {
         let mut surface = self.nominal.clone();
         self.free.iter().zip(logs).for_each(|(quantity, log)| quantity.scale(&mut surface, log.exp()));

@@ -21,6 +21,10 @@ const FINE: f64 = 0.5;
 /// Modes that may have been missed beside as many as were heard.
 const MORE: usize = 6;
 
+/// Least deviation of a frequency with which starts are looked for and first followed: proportions that are a little off are to match many
+/// modes badly rather than few of them well.
+const COARSE: f64 = 0.03;
+
 /// Two solutions whose logarithms differ by less than this are one.
 const SAME: f64 = 1e-3;
 
@@ -31,12 +35,13 @@ const SAME: f64 = 1e-3;
 pub(super) fn minima(model: &Model<'_>, problem: &Problem) -> Result<(Vec<Solved>, usize), CalibrateError> {
     let mut failed = None;
     let mut scanned: Vec<(f64, Vec<f64>)> = Vec::new();
+    let coarse = Problem { deviation: problem.deviation.max(COARSE), ..problem.clone() };
     let shapes = proportions(model.free.len());
     let observed = Observed::here();
     observed.part(|| "starts".into());
     let steps = observed.steps(shapes.len() + STARTS);
     for shape in shapes {
-        match scan(model, problem, &shape) {
+        match scan(model, &coarse, &shape) {
             Ok(found) => scanned.extend(found),
             Err(error) => failed = Some(error),
         }
@@ -47,7 +52,8 @@ pub(super) fn minima(model: &Model<'_>, problem: &Problem) -> Result<(Vec<Solved
     let mut followed = 0;
     for (_, start) in scanned.into_iter().take(STARTS) {
         followed += 1;
-        match solved(model, problem, &start) {
+        let near = solved(model, &coarse, &start);
+        match near.and_then(|near| solved(model, problem, &near.logs)) {
             Ok(one) if found.iter().all(|other| !same(&one, other)) => found.push(one),
             Ok(_) => {}
             Err(error) => failed = Some(error),

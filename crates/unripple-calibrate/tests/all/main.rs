@@ -21,6 +21,7 @@ mod fit_truth;
 mod fit_truths;
 #[path = "../heard_bench/mod.rs"]
 mod heard_bench;
+mod frequencies;
 mod kinds;
 #[path = "../kinds_bench/mod.rs"]
 mod kinds_bench;
@@ -31,6 +32,7 @@ mod measured_bench;
 mod recorded;
 #[path = "../recorded_bench/mod.rs"]
 mod recorded_bench;
+mod ringing;
 #[path = "../signals_bench/mod.rs"]
 mod signals_bench;
 mod signals_delay;
