@@ -16,6 +16,7 @@ mod check;
 mod common;
 mod config;
 mod error;
+mod fit;
 mod focus;
 mod interrupt;
 mod optimise;
@@ -37,7 +38,7 @@ use std::ffi::OsString;
 use talk::Talk;
 use unripple_paper::reproduce;
 use unripple_tasks::{
-    compare, design, devices, doctor, drift, export, field, fit, materials, modes, place, respond, sensors,
+    compare, design, devices, doctor, drift, export, field, listen, materials, modes, place, respond, sensors,
 };
 
 /// The commit that the program was built from; empty where that is not known.
@@ -92,7 +93,8 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
     match &arguments.command {
         Command::Calibrate(options) => calibrate::run(options, common),
         Command::Export(options) => output::perform(json, &options.ask(common)?, export::run),
-        Command::Fit(options) => output::perform(json, &options.ask(common)?, fit::run),
+        Command::Fit(options) => fit::run(options, common),
+        Command::Listen(options) => output::perform(json, &options.ask(common)?, listen::run),
         Command::Check(options) => check::run(options, common),
         Command::Design(options) => output::perform(json, &options.ask(common), design::run),
         Command::Modes(options) => output::perform(json, &options.ask(common), modes::run),

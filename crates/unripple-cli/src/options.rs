@@ -37,6 +37,8 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("tension", "--tension-percent"),
     ("stop_share", "--stop-percent"),
     ("plan", "PLAN"),
+    ("error", "--error-percent"),
+    ("recording", "RECORDING"),
     ("waveforms and path", "--waveform and --path"),
 ];
 

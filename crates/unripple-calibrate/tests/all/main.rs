@@ -19,9 +19,9 @@ mod fit_reach;
 #[path = "../fit_truth/mod.rs"]
 mod fit_truth;
 mod fit_truths;
+mod frequencies;
 #[path = "../heard_bench/mod.rs"]
 mod heard_bench;
-mod frequencies;
 mod kinds;
 #[path = "../kinds_bench/mod.rs"]
 mod kinds_bench;

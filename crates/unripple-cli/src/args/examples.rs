@@ -121,10 +121,16 @@ pub const VIEW: &str = "Examples:
   unripple view
   unripple view my-surface.toml --listen 0.0.0.0 --no-browser";
 
-/// For `fit`: the parameters of the model alone, and a library of its responses.
+/// For `fit`: the parameters of the model alone, a library of its responses, and frequencies in place of a library.
 pub const FIT: &str = "Examples:
   unripple fit rig.zarr
-  unripple fit rig.zarr --grid-mm 5 -o fitted.zarr";
+  unripple fit rig.zarr --grid-mm 5 -o fitted.zarr
+  unripple fit my-plate.toml --modes 73.2,148,376:20,431,559:Q40,910 --error-percent 3 -o fitted";
+
+/// For `listen`: a knock as it is, and one before another.
+pub const LISTEN: &str = "Examples:
+  unripple listen knock.wav
+  unripple listen knocks.wav --hit 1 --band-hz 50,2000 -o heard";
 
 /// For `devices`: the devices of this machine, and a JACK server that is not the default one.
 pub const DEVICES: &str = "Examples:

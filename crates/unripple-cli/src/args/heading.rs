@@ -40,6 +40,8 @@ pub const SWEEPS: &str = "Sweeps";
 pub const WIRING: &str = "Wiring and scales";
 /// The model with which a surface is compared, or that is fitted to it.
 pub const MODEL: &str = "Model";
+/// Natural frequencies that were heard.
+pub const FREQUENCIES: &str = "Frequencies";
 /// Author and licence that a SOFA file contains.
 pub const SOFA: &str = "SOFA";
 /// Sources of touches.

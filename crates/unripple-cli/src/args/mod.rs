@@ -11,6 +11,7 @@ mod figures;
 mod fit;
 mod focus;
 mod heading;
+mod listen;
 mod names;
 mod optimise;
 mod place;
@@ -34,6 +35,7 @@ pub use field::FieldOptions;
 pub use figures::FigureOptions;
 pub use fit::FitOptions;
 pub use focus::{FocusOptions, TargetOptions};
+pub use listen::ListenOptions;
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
 pub use optimise::OptimiseOptions;
 pub use place::PlaceOptions;
@@ -128,8 +130,10 @@ pub enum Command {
     /// Show a surface in a browser: touch it, see its numbers, design it, compare methods.
     View(ViewOptions),
     /// Fit the model to the responses between the actuators of a calibrated library, and compute the fitted model's responses at
-    /// any points.
+    /// any points; or, with --modes, fit a surface to natural frequencies alone.
     Fit(FitOptions),
+    /// Find natural frequencies and decay times in the recording of a knock on a surface, for `fit --modes`.
+    Listen(ListenOptions),
     /// List all errors of a surface file.
     Check(CheckOptions),
     /// List the materials that surface files may name, with the sources of their values.

@@ -13,12 +13,14 @@
 //! # Ok::<(), text_forms::FormError>(())
 //! ```
 
+mod frequencies;
 mod named;
 mod numbers;
 mod places;
 mod targets;
 mod waveforms;
 
+pub use frequencies::frequencies;
 pub use named::{input_scales, key_and_value, values, wire};
 pub use numbers::{FormError, above_zero, interval, numbers};
 pub use places::{distances, place, polygon, weighted, weighted_polygon};
