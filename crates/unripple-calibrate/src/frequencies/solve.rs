@@ -17,8 +17,9 @@ const LONGEST: f64 = 0.5;
 /// Largest logarithm of a factor: a thousandfold of what the file says is no correction of it.
 const FARTHEST: f64 = 7.0;
 
-/// A step shorter than this, as a change of a logarithm, ends the fit: it is a hundredth of what is measured.
-const SHORT: f64 = 1e-6;
+/// A step shorter than this, in deviations of a frequency, ends the fit, and so does a smaller relative gain: both are far below what is told.
+const SHORT: f64 = 3e-3;
+const GAIN: f64 = 1e-4;
 
 /// Measured frequencies, ready for a fit.
 #[derive(Clone, Debug)]
@@ -92,7 +93,9 @@ pub(super) fn solved(model: &Model<'_>, problem: &Problem, from: &[f64]) -> Resu
         let gain = here.matching.cost - next.matching.cost;
         here = next;
         damping = (0.1 * damping).max(1e-9);
-        if step.iter().all(|by| by.abs() < SHORT) || gain < 1e-8 * (1.0 + here.matching.cost) {
+        if step.iter().all(|by| by.abs() < SHORT * problem.deviation)
+            || gain < GAIN * (1.0 + here.matching.cost)
+        {
             break;
         }
     }

@@ -25,8 +25,10 @@ const MORE: usize = 6;
 /// modes badly rather than few of them well.
 const COARSE: f64 = 0.03;
 
-/// Two solutions whose logarithms differ by less than this are one.
+/// Two solutions whose logarithms differ by less than this are one; and two places, found with the coarse deviation, that are near enough to
+/// lead to one.
 const SAME: f64 = 1e-3;
+const NEAR: f64 = 1e-2;
 
 /// Minima of the cost, the lowest first, each found from one of several starts, and the number of starts.
 ///
@@ -50,11 +52,18 @@ pub(super) fn minima(model: &Model<'_>, problem: &Problem) -> Result<(Vec<Solved
     scanned.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut found: Vec<Solved> = Vec::new();
     let mut followed = 0;
+    let mut reached: Vec<Solved> = Vec::new();
     for (_, start) in scanned.into_iter().take(STARTS) {
         followed += 1;
-        let near = solved(model, &coarse, &start);
-        match near.and_then(|near| solved(model, problem, &near.logs)) {
-            Ok(one) if found.iter().all(|other| !same(&one, other)) => found.push(one),
+        let result = solved(model, &coarse, &start).and_then(|near| {
+            // What leads to the same place is followed once.
+            let known = reached.iter().any(|other| same(&near, other, NEAR));
+            let fine = if known { None } else { Some(solved(model, problem, &near.logs)?) };
+            reached.push(near);
+            Ok(fine)
+        });
+        match result {
+            Ok(Some(one)) if found.iter().all(|other| !same(&one, other, SAME)) => found.push(one),
             Ok(_) => {}
             Err(error) => failed = Some(error),
         }
@@ -67,8 +76,9 @@ pub(super) fn minima(model: &Model<'_>, problem: &Problem) -> Result<(Vec<Solved
     }
 }
 
-fn same(a: &Solved, b: &Solved) -> bool {
-    a.matching.pairs == b.matching.pairs && a.logs.iter().zip(&b.logs).all(|(a, b)| (a - b).abs() < SAME)
+/// Whether two solutions are one: the same assignment, and logarithms that differ by less than `by`.
+fn same(a: &Solved, b: &Solved, by: f64) -> bool {
+    a.matching.pairs == b.matching.pairs && a.logs.iter().zip(&b.logs).all(|(a, b)| (a - b).abs() < by)
 }
 
 /// Logarithms of factors on `count` quantities: none, and each of them alone larger and smaller.
