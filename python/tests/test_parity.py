@@ -24,7 +24,7 @@ _NO_TASKS = {"view", "cache", "completions", "man", "help"}
 _REFUSED = {"compare": {"waveform", "silent", "path", "speed_mm_s", "level_mm_s"}, "sweep": {"jobs"}, "optimise": {"jobs"}}
 
 #: The tasks that the command line has as one.
-_OF_FOCUS = ("focus", "waveform", "stroke")
+_AS_ONE = {"focus": ("focus", "waveform", "stroke"), "fit": ("fit", "fit_modes")}
 
 
 def test_the_page_is_up_to_date() -> None:
@@ -77,9 +77,9 @@ def test_each_option_of_the_page_is_here(program: str) -> None:
     assert _said_options(program, "view") - known == set()
 
 
-@pytest.mark.parametrize("command", sorted(set(_unripple.commands()) - {"waveform", "stroke"}))
+@pytest.mark.parametrize("command", sorted(set(_unripple.commands()) - {"waveform", "stroke", "fit_modes"}))
 def test_each_option_of_the_command_line_is_here(program: str, command: str) -> None:
-    tasks = _OF_FOCUS if command == "focus" else (command,)
+    tasks = _AS_ONE.get(command, (command,))
     known = {name for task in tasks for name in _options.names(task)} | _REFUSED.get(command, set())
     said = _said_options(program, command)
     assert "output" in said or "set" in said, "the help was not understood"

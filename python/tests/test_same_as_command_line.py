@@ -120,6 +120,20 @@ CASES: dict[str, tuple[list[str], Callable[[], ur.Report], Before | None]] = {
         ),
         None,
     ),
+    "frequencies": (
+        ["fit", *_FILM, "--modes", "171.4,270.8:35.1,343:Q40.3", "--free", "tension,modulus", "--error-percent", "1.7"]
+        + ["--sides-known", "--no-figures", "-o", "out"],
+        lambda: ur.fit_modes(
+            film(),
+            [171.4, (270.8, 35.1), "343:Q40.3"],
+            free=["tension", "modulus"],
+            error_percent=1.7,
+            sides_known=True,
+            no_figures=True,
+            output="out",
+        ),
+        None,
+    ),
     "materials": (["materials", "glass"], lambda: ur.materials("glass"), None),
     "points": (
         ["focus", *_FILM, "--at", "40.1,50.3", "--at", "100,90,0.7", "--method", "concentrate", "--peak-um", "1.3"]

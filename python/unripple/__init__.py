@@ -16,6 +16,7 @@ from unripple._errors import (
     WorkError,
 )
 from unripple._field import Field
+from unripple._frequencies import fit_modes, listen
 from unripple._libraries import calibrate, export, fit, open, respond
 from unripple._lists import builtin, commands, devices, effects, materials
 from unripple._motion import FingerMotion, Snapshots, Traces
@@ -80,7 +81,9 @@ __all__ = [
     "export",
     "field",
     "fit",
+    "fit_modes",
     "focus",
+    "listen",
     "materials",
     "modes",
     "open",

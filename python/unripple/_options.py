@@ -271,6 +271,20 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         *_same(flag, "even_if_doubtful"),
         *_same(number, "accuracy"),
     ),
+    "listen": (
+        *_same(path, "recording"),
+        *_same(count, "channel", "hit", "most"),
+        *_same(_values.interval, "band_hz"),
+        *_same(number, "mains_hz", "least_db"),
+        *_FIGURES,
+    ),
+    "fit_modes": (
+        *_same(_values.frequencies, "modes"),
+        *_same(_values.named, "free"),
+        Option("error_percent", "error", percent),
+        *_same(flag, "sides_known"),
+        *_FIGURES,
+    ),
     "export": (
         *_same(path, "library", "output"),
         *_same(text, "format", "author", "organization", "license"),

@@ -242,6 +242,43 @@ def distances(name: str, value: object) -> list[float]:
     return [least / 1e3, most / 1e3]
 
 
+def interval(name: str, value: object) -> list[float]:
+    """Return a lowest and a highest frequency in Hz."""
+    return row(name, value, "LOW,HIGH in Hz", 2, 2)
+
+
+def frequencies(name: str, value: object) -> list[dict[str, Any]]:
+    """Return measured modes: frequencies in Hz, pairs of them with decay times in ms, texts as the command line has them, or mappings."""
+    items = [value] if is_number(value) else many(name, value)
+    found = []
+    for item in items:
+        if isinstance(item, str):
+            found += [_frequency(name, part.strip()) for part in item.split(",")]
+        elif isinstance(item, Mapping):
+            found.append(plain(name, item))
+        elif is_number(item):
+            found.append({"frequency_hz": number(name, item)})
+        else:
+            hz, ms = row(name, item, "a frequency in Hz and a decay time in ms", 2, 2)
+            found.append({"frequency_hz": hz, "decay_time_s": ms / 1e3})
+    return found
+
+
+def _frequency(name: str, text: str) -> dict[str, Any]:
+    """Return a mode of a text HZ[:MS] or HZ:Q with a quality factor."""
+    form = "HZ[:MS] or HZ:Q with a quality factor"
+    typed, colon, time = text.partition(":")
+    hz = _parsed(name, typed, form)
+    if not colon:
+        return {"frequency_hz": hz}
+    time = time.strip()
+    if time[:1] in ("Q", "q"):
+        if hz == 0:
+            raise AskError(field=name, expected=form, found=shown(text))
+        return {"frequency_hz": hz, "decay_time_s": _parsed(name, time[1:], form) / (math.pi * hz)}
+    return {"frequency_hz": hz, "decay_time_s": _parsed(name, time, form) / 1e3}
+
+
 def times_ms(name: str, value: object) -> list[float]:
     """Return times, given in ms, in s; one alone stands for a list of one."""
     return [milli(name, item) for item in times(name, value)]

@@ -23,6 +23,7 @@ mod elsewhere;
 mod export;
 mod figures;
 mod fit;
+mod frequencies;
 mod judged;
 mod keys;
 mod level;

@@ -45,6 +45,7 @@ fn a_folder_without_figures_has_its_report() {
         ("surfaces", vec!["compare", &file, &file, "--at", "62,90", "--window-ms", "20"]),
         ("place", vec!["place", &file, "--at", "62,90", "--count", "2", "--rim-mm", "8,20"]),
         ("sensors", vec!["sensors", &file, "--count", "2", "--grid-mm", "25", "--profile", "0"]),
+        ("fit", vec!["fit", &file, "--modes", "171.4,270.8,343", "--sides-known"]),
     ] {
         let out = scratch.join(name);
         json(&[&arguments[..], &["--no-figures", "-o", &out]].concat());

@@ -114,7 +114,7 @@ pub struct Other {
     /// Whether it is a mirror image, which no frequency tells from the first.
     pub mirrored: bool,
     /// Its fitted quantities.
-    pub values: Vec<Value>,
+    pub quantities: Vec<Value>,
     /// Its cost.
     pub cost: f64,
     /// What would tell it from the first; `None` if neither a frequency nor the motion at a place does.
@@ -128,7 +128,7 @@ impl Other {
         Self {
             sides: found.explained.sides.clone(),
             mirrored: found.mirrored,
-            values: found.explained.values.iter().map(Value::of).collect(),
+            quantities: found.explained.values.iter().map(Value::of).collect(),
             cost: found.explained.cost,
             telling: found.telling.as_ref().map(Telling::of),
             surface_toml: to_toml(&found.explained.surface),

@@ -20,7 +20,7 @@ pub struct Report {
     /// Relative standard deviation of the frequencies that was stated.
     pub error: f64,
     /// The fitted quantities.
-    pub values: Vec<Value>,
+    pub quantities: Vec<Value>,
     /// The measured frequencies and their modes, ascending.
     pub modes: Vec<Mode>,
     /// Frequencies of modes between these that were not heard, in Hz.

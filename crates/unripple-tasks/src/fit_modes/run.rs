@@ -32,7 +32,7 @@ const LARGE: f64 = 2.0;
 /// let hz = [171.4, 270.8, 270.8, 343.0];
 /// let modes = hz.map(|frequency_hz| fit_modes::ModeAsk { frequency_hz, decay_time_s: None }).to_vec();
 /// let report = fit_modes::run(&fit_modes::Ask { modes, ..fit_modes::Ask::default() }, &mut Silent)?;
-/// let tension = &report.values[0];
+/// let tension = &report.quantities[0];
 /// assert!(tension.quantity == "tension" && (210.0..230.0).contains(&tension.value), "{tension:?}");
 /// # Ok::<(), unripple_tasks::TaskError>(())
 /// ```
@@ -136,7 +136,7 @@ fn reported(ask: &Ask, surface: &Surface, heard: &[Heard], found: &FrequencyFit)
         surface: surface.name.clone(),
         sides: best.sides.clone(),
         error: ask.error,
-        values: best.values.iter().map(Value::of).collect(),
+        quantities: best.values.iter().map(Value::of).collect(),
         modes: best.modes.iter().map(Mode::of).collect(),
         missed_hz: best.missed_hz.clone(),
         spurious_hz: best.spurious.iter().map(|which| heard[*which].hz).collect(),

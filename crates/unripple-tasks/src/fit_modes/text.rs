@@ -37,7 +37,7 @@ fn of(report: &Report) -> String {
         report.starts,
         report.sides
     );
-    values(&mut text, &report.values);
+    values(&mut text, &report.quantities);
     for untold in &report.untold {
         let how = match untold.factor {
             Some(factor) => format!("only to a factor of {factor:.1} either way"),
@@ -125,7 +125,7 @@ fn others(text: &mut String, report: &Report) {
             other.sides, other.cost, report.cost
         );
         if !other.mirrored {
-            values(text, &other.values);
+            values(text, &other.quantities);
         }
         let telling = other
             .telling

@@ -188,6 +188,18 @@ pub const KINDS: &[Kind] = &[
         perhaps: &[("--within-percent", Number(1.0, 10.0)), ("--changed-percent", Number(0.1, 10.0))],
     },
     Kind { words: "doctor surface.toml --tuio 0", always: &[], perhaps: &[] },
+    Kind {
+        words: "listen out/drive.wav",
+        always: &[],
+        perhaps: &[
+            ("--channel", Whole(1, 3)),
+            ("--band-hz", One(&["20,2000", "2000,20", "nan,1", "5"])),
+            ("--mains-hz", Number(40.0, 70.0)),
+            ("--hit", Whole(1, 3)),
+            ("--most", Whole(1, 10)),
+            ("-o", One(&["heard", "out"])),
+        ],
+    },
     Kind { words: "place surface.toml", always: &[("--count", Whole(1, 4))], perhaps: PLACE },
     Kind {
         words: "sensors surface.toml",
