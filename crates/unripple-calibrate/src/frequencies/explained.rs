@@ -9,6 +9,9 @@ use unripple_linalg::{Cholesky, Mat, exact_symmetric};
 /// Half of a 95 % interval in standard deviations.
 const HALF: f64 = 1.96;
 
+/// Logarithm of the factor either way at which an interval ends that is told by nothing: what a number can hold.
+const WIDEST: f64 = 20.0;
+
 /// Least share of a residual that its own frequency may leave to others: below, nothing else tells what it tells.
 const ALONE: f64 = 1e-6;
 
@@ -74,7 +77,7 @@ impl Explained {
         let excess = excess(solved, problem);
         let value = |(which, quantity): (usize, &Quantity)| {
             let spread = covariance.as_ref().map_or(f64::INFINITY, |c| c[(which, which)].max(0.0).sqrt());
-            let half = (HALF * spread * excess.max(1.0)).min(700.0);
+            let half = (HALF * spread * excess.max(1.0)).min(WIDEST);
             let value = quantity.value(&surface).unwrap_or(0.0);
             FittedValue {
                 quantity: *quantity,

@@ -131,7 +131,7 @@ pub fn fit_frequencies(
     }
     let allowed = best.cost + AS_WELL * best.excess.max(1.0).powi(2);
     let mut others = Vec::new();
-    for solved in found.iter().skip(1).filter(|solved| solved.matching.cost <= allowed) {
+    for solved in found.iter().skip(1).filter(|solved| explains(solved, allowed)) {
         let explained = Explained::of(&model, &problem, &order, solved);
         if differs(&explained, &best) {
             others.push(Other::of(&best, explained, false, &problem)?);
@@ -223,7 +223,7 @@ fn arranged_otherwise(
         let model = Model::new(&arranged, free);
         // An arrangement that cannot be computed, as one that nothing holds, is none.
         let Ok((found, _)) = minima(&model, problem) else { continue };
-        let Some(solved) = found.first().filter(|solved| solved.matching.cost <= allowed) else { continue };
+        let Some(solved) = found.first().filter(|solved| explains(solved, allowed)) else { continue };
         let explained = Explained::of(&model, problem, order, solved);
         others.push(Other::of(best, explained, false, problem)?);
     }
@@ -240,6 +240,11 @@ impl Other {
         let telling = Telling::of(&best.surface, &explained.surface, problem)?;
         Ok(Self { explained, mirrored, telling })
     }
+}
+
+/// Whether a solution explains frequencies at an allowed cost, and not by taking all of them for something else.
+fn explains(solved: &Solved, allowed: f64) -> bool {
+    solved.matching.cost <= allowed && !solved.matching.pairs.is_empty()
 }
 
 /// Whether two surfaces of one arrangement are different: in a value, or in which mode a frequency is.
