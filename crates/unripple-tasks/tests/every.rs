@@ -67,6 +67,13 @@ fn asks_go_through_json() {
     through_json(&doctor::Ask::default());
     through_json(&drift::Ask { changed: 0.005, ..drift::Ask::default() });
     through_json(&fit::Ask::default());
+    let mode = fit_modes::ModeAsk { frequency_hz: 73.2, decay_time_s: Some(0.25) };
+    through_json(&fit_modes::Ask {
+        modes: vec![mode],
+        free: vec!["modulus".into()],
+        ..fit_modes::Ask::default()
+    });
+    through_json(&listen::Ask { band_hz: Some([20.0, 2e3]), ..listen::Ask::default() });
     through_json(&calibrate::Ask { by: calibrate::By::Tap, ..calibrate::Ask::default() });
     through_json(&play::Ask::default());
     through_json(&compare::Ask {
@@ -131,6 +138,9 @@ fn a_cancelled_task_leaves_nothing() {
     does_nothing(&devices::Ask::default(), devices::run);
     does_nothing(&doctor::Ask::default(), doctor::run);
     does_nothing(&drift::Ask::default(), drift::run);
+    let mode = fit_modes::ModeAsk { frequency_hz: 171.4, decay_time_s: None };
+    let ask = fit_modes::Ask { modes: vec![mode], output: place.clone(), ..fit_modes::Ask::default() };
+    does_nothing(&ask, fit_modes::run);
     does_nothing(
         &respond::Ask { pitch_m: 0.02, output: output.clone(), ..respond::Ask::default() },
         respond::run,

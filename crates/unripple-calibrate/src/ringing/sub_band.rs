@@ -14,6 +14,9 @@ const MOST: usize = 320;
 /// Fewest samples that are of use.
 const LEAST: usize = 24;
 
+/// Fewest samples that are kept of a band, if there are as many: a tone as steady as the noise is to be known as one.
+const KEPT: usize = 80;
+
 /// Number of pieces in which the decay of a band is followed down to its floor.
 const PIECES: usize = 40;
 
@@ -61,6 +64,6 @@ fn above_floor(mut samples: Vec<c64>) -> Vec<c64> {
     let piece = (samples.len() / PIECES).max(3);
     let last = samples.chunks(piece).rposition(|of| power(of) > 2.0 * floor);
     let end = last.map_or(samples.len(), |last| (last + 1) * piece * 4 / 3);
-    samples.truncate(end.max(LEAST));
+    samples.truncate(end.max(KEPT));
     samples
 }

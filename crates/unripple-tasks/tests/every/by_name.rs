@@ -29,6 +29,8 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<respond::Ask>();
     whole::<calibrate::Ask>();
     whole::<fit::Ask>();
+    whole::<listen::Ask>();
+    whole::<fit_modes::Ask>();
     whole::<export::Ask>();
     whole::<drift::Ask>();
     whole::<doctor::Ask>();
@@ -37,7 +39,7 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<sweep::Ask>();
     whole::<optimise::Ask>();
     whole::<rerun::Ask>();
-    assert_eq!(commands::COMMANDS.len(), 22);
+    assert_eq!(commands::COMMANDS.len(), 24);
 }
 
 #[test]
