@@ -65,7 +65,8 @@ pub struct Explained {
     /// Cost of the fit: the sum of the squared residuals over their standard deviation, and the prices of missed modes and spurious
     /// frequencies.
     pub cost: f64,
-    /// Root mean square of the residuals over the error that was stated, per degree of freedom; intervals are wider by it where it is above 1.
+    /// Root mean square of the residuals over the error that was stated, per degree of freedom; intervals are wider by it where it is above
+    /// 1.
     pub excess: f64,
 }
 
@@ -138,8 +139,8 @@ fn modes(
     solved.matching.pairs.iter().enumerate().map(one).collect()
 }
 
-/// The direction in the logarithms of the factors that frequencies tell least, of unit length, and its standard deviation (infinite where they
-/// tell nothing).
+/// The direction in the logarithms of the factors that frequencies tell least, of unit length, and its standard deviation (infinite where
+/// they tell nothing).
 pub(super) fn weakest(solved: &Solved, problem: &Problem) -> Option<(Vec<f64>, f64)> {
     let count = solved.logs.len();
     if solved.jacobian.is_empty() {

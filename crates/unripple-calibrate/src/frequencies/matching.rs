@@ -4,8 +4,8 @@
 //! whichever that is. The best assignment therefore keeps the order, and a pair of modes that swaps when parameters change is followed by
 //! assigning anew.
 
-/// Price of a mode below the highest measured frequency that was not heard, as a squared residual over its deviation: -2 ln of the odds that
-/// one mode in five is missed.
+/// Price of a mode below the highest measured frequency that was not heard, as a squared residual over its deviation: -2 ln of the odds
+/// that one mode in five is missed.
 pub(super) const MISSED: f64 = 3.0;
 
 /// Price of a measured frequency that is no mode: beyond four deviations from every mode, something else is more likely.
@@ -20,8 +20,8 @@ pub(super) struct Matching {
     pub cost: f64,
 }
 
-/// The least expensive assignment of measured to computed frequencies, both as logarithms and ascending, where the logarithm of a measured one
-/// has the standard deviation `deviation`. Modes above the last one that is assigned cost nothing: nobody listened there.
+/// The least expensive assignment of measured to computed frequencies, both as logarithms and ascending, where the logarithm of a measured
+/// one has the standard deviation `deviation`. Modes above the last one that is assigned cost nothing: nobody listened there.
 pub(super) fn matched(measured: &[f64], computed: &[f64], deviation: f64) -> Matching {
     let (rows, columns) = (measured.len(), computed.len());
     let square = |i: usize, j: usize| ((measured[i] - computed[j]) / deviation).powi(2);

@@ -26,6 +26,7 @@
 
 mod arranged;
 mod explained;
+mod heard;
 mod losses;
 mod matching;
 mod model;
@@ -36,7 +37,8 @@ mod starts;
 mod telling;
 
 pub use explained::{Explained, FittedValue, MatchedMode};
+pub use heard::Heard;
 pub use losses::FittedLosses;
 pub use quantity::Quantity;
-pub use run::{FrequencyFit, FrequencyOptions, Heard, Other, Untold, fit_frequencies};
+pub use run::{FrequencyFit, FrequencyOptions, Other, Untold, fit_frequencies};
 pub use telling::Telling;

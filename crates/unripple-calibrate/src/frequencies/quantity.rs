@@ -61,8 +61,8 @@ impl Quantity {
         }
     }
 
-    /// Quantities that are fitted where none are named: of a sheet under tension the tension, of a plate its modulus or, with grain, its three
-    /// moduli; and the springs, if a side of the outer rim has any.
+    /// Quantities that are fitted where none are named: of a sheet under tension the tension, of a plate its modulus or, with grain, its
+    /// three moduli; and the springs, if a side of the outer rim has any.
     pub fn usual(surface: &Surface) -> Vec<Self> {
         let sheet = &surface.sheet;
         let mut all = match (sheet.tension > 0.0, sheet.uneven.grain.is_some()) {
@@ -76,8 +76,8 @@ impl Quantity {
         all
     }
 
-    /// The quantity's value for a surface, in SI units; `None` if the surface has none or if it is 0, which no factor changes. That of springs
-    /// is the translational stiffness, or the rotational one where there is no other.
+    /// The quantity's value for a surface, in SI units; `None` if the surface has none or if it is 0, which no factor changes. That of
+    /// springs is the translational stiffness, or the rotational one where there is no other.
     pub fn value(self, surface: &Surface) -> Option<f64> {
         let sheet = &surface.sheet;
         let grain = sheet.uneven.grain.as_ref();

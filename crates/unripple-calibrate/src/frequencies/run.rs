@@ -6,7 +6,7 @@ use super::losses::FittedLosses;
 use super::model::Model;
 use super::solve::{Problem, Solved};
 use super::starts::minima;
-use super::{Explained, Quantity, Telling};
+use super::{Explained, Heard, Quantity, Telling};
 use crate::CalibrateError;
 use unripple_core::{Observed, OutOfRange, Surface};
 
@@ -25,22 +25,6 @@ const DIFFERENT: f64 = 3.0;
 
 /// Most frequencies of a fit: with more, it is fitted to a recording.
 const MOST: usize = 200;
-
-/// A natural frequency that was measured.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Heard {
-    /// Frequency in Hz.
-    pub hz: f64,
-    /// Decay time in s, in which the amplitude falls to 1/e, if it was measured.
-    pub decay_time: Option<f64>,
-}
-
-impl Heard {
-    /// A frequency (Hz) without a decay time.
-    pub fn at(hz: f64) -> Self {
-        Self { hz, decay_time: None }
-    }
-}
 
 /// What is fitted to frequencies, and how far they are trusted.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,8 +87,9 @@ pub struct FrequencyFit {
 /// stated error, or under the residuals' own where these are larger.
 ///
 /// # Errors
-/// [`CalibrateError::Count`] of too few or too many frequencies; [`CalibrateError::Range`] of a frequency, decay time or error that is none;
-/// [`CalibrateError::Unsolvable`] of a quantity that the surface does not have, or if frequencies tell none; those of computing modes.
+/// [`CalibrateError::Count`] of too few or too many frequencies; [`CalibrateError::Range`] of a frequency, decay time or error that is
+/// none; [`CalibrateError::Unsolvable`] of a quantity that the surface does not have, or if frequencies tell none; those of computing
+/// modes.
 pub fn fit_frequencies(
     surface: &Surface,
     heard: &[Heard],

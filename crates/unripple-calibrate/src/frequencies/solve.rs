@@ -17,7 +17,8 @@ const LONGEST: f64 = 0.5;
 /// Largest logarithm of a factor: a thousandfold of what the file says is no correction of it.
 const FARTHEST: f64 = 7.0;
 
-/// A step shorter than this, in deviations of a frequency, ends the fit, and so does a smaller relative gain: both are far below what is told.
+/// A step shorter than this, in deviations of a frequency, ends the fit, and so does a smaller relative gain: both are far below what is
+/// told.
 const SHORT: f64 = 3e-3;
 const GAIN: f64 = 1e-4;
 

@@ -25,8 +25,8 @@ const MORE: usize = 6;
 /// modes badly rather than few of them well.
 const COARSE: f64 = 0.03;
 
-/// Two solutions whose logarithms differ by less than this are one; and two places, found with the coarse deviation, that are near enough to
-/// lead to one.
+/// Two solutions whose logarithms differ by less than this are one; and two places, found with the coarse deviation, that are near enough
+/// to lead to one.
 const SAME: f64 = 1e-3;
 const NEAR: f64 = 1e-2;
 
@@ -96,8 +96,8 @@ fn proportions(count: usize) -> Vec<Vec<f64>> {
     all
 }
 
-/// Local minima of the cost over a common factor on all free quantities, from a single solution: every frequency is taken to be proportional
-/// to the root of the factor. Gives the cost and the logarithms of each.
+/// Local minima of the cost over a common factor on all free quantities, from a single solution: every frequency is taken to be
+/// proportional to the root of the factor. Gives the cost and the logarithms of each.
 fn scan(model: &Model<'_>, problem: &Problem, shape: &[f64]) -> Result<Vec<(f64, Vec<f64>)>, CalibrateError> {
     let count = 2 * problem.logs.len() + MORE;
     let modes = model.lowest(shape, count)?.logs();

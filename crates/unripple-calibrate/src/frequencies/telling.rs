@@ -51,8 +51,8 @@ pub enum Telling {
 }
 
 impl Telling {
-    /// The measurement that tells `first` and `second` apart; `None` if neither a frequency nor a place does. The sheets alone are compared,
-    /// without the loads of actuators.
+    /// The measurement that tells `first` and `second` apart; `None` if neither a frequency nor a place does. The sheets alone are
+    /// compared, without the loads of actuators.
     pub(super) fn of(
         first: &Surface,
         second: &Surface,

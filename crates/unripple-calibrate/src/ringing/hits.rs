@@ -1,7 +1,7 @@
 //! Hits in a recording: where the sound is not what came before predicts.
 //!
-//! A sum of ringing modes, of hum and of noise is predicted by a linear filter of its past, beats included; a hit is not. The filter is that
-//! of an autoregressive process with the recording's autocorrelation (Levinson and Durbin).
+//! A sum of ringing modes, of hum and of noise is predicted by a linear filter of its past, beats included; a hit is not. The filter is
+//! that of an autoregressive process with the recording's autocorrelation (Levinson and Durbin).
 
 /// Order of the filter: two for each of twenty tones.
 const ORDER: usize = 40;

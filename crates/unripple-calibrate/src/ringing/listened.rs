@@ -105,8 +105,8 @@ pub struct Knock {
 /// Finds natural frequencies and decay times in a recording of a knock, one channel at `rate` samples a second.
 ///
 /// # Errors
-/// [`CalibrateError::Range`] of options or a rate out of range; [`CalibrateError::Recording`] of a recording without a hit, or with too little
-/// after it.
+/// [`CalibrateError::Range`] of options or a rate out of range; [`CalibrateError::Recording`] of a recording without a hit, or with too
+/// little after it.
 pub fn listen(recording: &[f64], rate: f64, options: &ListenOptions) -> Result<Knock, CalibrateError> {
     let band = band(rate, options)?;
     let mean = recording.iter().sum::<f64>() / recording.len().max(1) as f64;

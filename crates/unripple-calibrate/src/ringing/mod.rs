@@ -1,8 +1,8 @@
 //! Natural frequencies and decay times of a surface from the recording of a knock.
 //!
 //! [`listen()`] finds the hits in a recording, takes what rings after the last of them, splits it into sub-bands, and finds in each the
-//! exponentials that it is a sum of, by the shift invariance of its signal subspace (ESPRIT), refined by least squares. What does not decay is
-//! no mode: mains hum and steady tones are named and left out.
+//! exponentials that it is a sum of, by the shift invariance of its signal subspace (ESPRIT), refined by least squares. What does not decay
+//! is no mode: mains hum and steady tones are named and left out.
 //!
 //! ```
 //! use std::f64::consts::TAU;

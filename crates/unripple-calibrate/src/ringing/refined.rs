@@ -44,8 +44,8 @@ impl Fitted {
         Some(Self { logs, waves, amplitudes, rest, squares })
     }
 
-    /// Derivatives of the samples by amplitudes and logarithms, samples x twice the exponentials. The sum is an analytic function of all, so
-    /// that complex derivatives are enough.
+    /// Derivatives of the samples by amplitudes and logarithms, samples x twice the exponentials. The sum is an analytic function of all,
+    /// so that complex derivatives are enough.
     fn slopes(&self) -> Mat<c64> {
         let count = self.logs.len();
         Mat::from_fn(self.waves.nrows(), 2 * count, |n, k| match k.checked_sub(count) {

@@ -95,7 +95,8 @@ pub(super) fn once(mut tones: Vec<Tone>) -> Vec<Tone> {
     kept
 }
 
-/// The nominal frequency of the mains in Hz, by the steady tones: 50 or 60, whichever has the stronger harmonics; `None` if neither has any.
+/// The nominal frequency of the mains in Hz, by the steady tones: 50 or 60, whichever has the stronger harmonics; `None` if neither has
+/// any.
 pub(super) fn mains(tones: &[Tone]) -> Option<f64> {
     let power = |mains: f64| {
         tones.iter().filter(|tone| tone.is_hum(mains)).map(|tone| tone.amplitude.powi(2)).sum::<f64>()

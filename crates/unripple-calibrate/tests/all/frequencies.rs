@@ -1,5 +1,5 @@
-//! Surfaces fitted to frequencies, against the closed forms of plates and membranes: intervals that hold, modes that are missed or spurious, and
-//! what frequencies cannot tell.
+//! Surfaces fitted to frequencies, against the closed forms of plates and membranes: intervals that hold, modes that are missed or
+//! spurious, and what frequencies cannot tell.
 
 use std::f64::consts::PI;
 use unripple_calibrate::CalibrateError;

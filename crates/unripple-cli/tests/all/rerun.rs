@@ -87,7 +87,7 @@ fn run_in(folder: &Path, threads: &str, arguments: &[&str]) -> Value {
 
 /// Commands that compute, as typed in a folder with film.toml, tone.wav, mark.svg, drive.wav and the library `lib`; OUT stands for where
 /// results go.
-const COMMANDS: [&str; 22] = [
+const COMMANDS: [&str; 23] = [
     "check film.toml",
     "design film.toml",
     "modes film.toml --max-hz 600 --accuracy 1e-5",
@@ -108,6 +108,7 @@ const COMMANDS: [&str; 22] = [
     "compare film.toml --vary sheet.tension_n_per_m=150,200 --at 62,90 --method one-bit -o OUT",
     "respond film.toml --grid-mm 50 --length-ms 10 -o OUT",
     "calibrate film.toml --device virtual --unknowns 3 --grid-mm 70 -o OUT",
+    "fit film.toml --modes 159,252,319 --free tension,modulus -o OUT",
     "export lib -o OUT",
     "play film.toml --fingers 2 --seconds 1 --keep-drive OUT.wav",
 ];

@@ -115,7 +115,7 @@ pub struct Other {
     pub mirrored: bool,
     /// Its fitted quantities.
     pub quantities: Vec<Value>,
-    /// Its cost.
+    /// Cost of its fit, as that of the first.
     pub cost: f64,
     /// What would tell it from the first; `None` if neither a frequency nor the motion at a place does.
     pub telling: Option<Telling>,

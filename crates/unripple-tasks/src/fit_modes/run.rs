@@ -22,8 +22,8 @@ const ACCURACY: f64 = 1e-4;
 /// Excess of the residuals over the stated error that is worth a note.
 const LARGE: f64 = 2.0;
 
-/// Fits quantities of a surface to measured natural frequencies, and writes the fitted surface file, a report and figures to a folder if the
-/// request names one.
+/// Fits quantities of a surface to measured natural frequencies, and writes the fitted surface file, a report and figures to a folder if
+/// the request names one.
 ///
 /// ```
 /// use unripple_tasks::{Silent, fit_modes};

@@ -14,11 +14,12 @@ const LONGEST: f64 = 600.0;
 /// Equal samples in a row at the largest magnitude that are no chance: the recording is clipped.
 const IN_A_ROW: usize = 4;
 
-/// Finds natural frequencies and decay times in a recording of a knock, and writes a report and figures to a folder if the request names one.
+/// Finds natural frequencies and decay times in a recording of a knock, and writes a report and figures to a folder if the request names
+/// one.
 ///
 /// # Errors
-/// [`TaskError::Ask`] of options that make no sense; [`TaskError::Input`] of a recording that cannot be read, has no hit, or has too little after
-/// it; those of writing the folder; [`TaskError::Cancelled`].
+/// [`TaskError::Ask`] of options that make no sense; [`TaskError::Input`] of a recording that cannot be read, has no hit, or has too little
+/// after it; those of writing the folder; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let columns = Columns::of(ask.columns)?;
     let options = options(ask)?;
