@@ -80,8 +80,12 @@ def test_a_knock_is_heard_and_a_plate_is_fitted(tmp_path: Path) -> None:
         written.writeframes((32767 * sound).astype("<i2").tobytes())
     heard = ur.listen(file, band_hz=(40, 2000))
     assert [mode.frequency_hz for mode in heard.modes] == pytest.approx(list(measured), rel=2e-3)
-    assert [1e3 * mode.decay_time_s for mode in heard.modes] == pytest.approx(list(measured.values()), rel=0.1)
-    fitted = ur.fit_modes(_COPPER, heard.modes_text, error_percent=3, output=tmp_path / "fitted", no_figures=True)
+    assert [1e3 * mode.decay_time_s for mode in heard.modes] == pytest.approx(
+        list(measured.values()), rel=0.1
+    )
+    fitted = ur.fit_modes(
+        _COPPER, heard.modes_text, error_percent=3, output=tmp_path / "fitted", no_figures=True
+    )
     (modulus,) = fitted.quantities
     assert modulus.quantity == "modulus" and modulus.value == pytest.approx(98e9, rel=0.03)
     assert any(other.mirrored for other in fitted.others) and fitted.losses.loss_factor > 0

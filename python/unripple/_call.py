@@ -29,7 +29,12 @@ _BESIDE = {
 _APART = {"calibrate": (("figure", "check_levels"),), "place": (("keep", "keep_all"),)}
 
 #: Fields without which there is nothing to do, by command, with the option that sets them.
-_NEEDED = {"listen": {"recording": "recording"}, "fit_modes": {"modes": "modes"}, "stroke": {"path": "path", "speed_m_s": "speed_mm_s"}, "waveform": {"waveforms": "waveform"}}
+_NEEDED = {
+    "listen": {"recording": "recording"},
+    "fit_modes": {"modes": "modes"},
+    "stroke": {"path": "path", "speed_m_s": "speed_mm_s"},
+    "waveform": {"waveforms": "waveform"},
+}
 
 
 class Call:
