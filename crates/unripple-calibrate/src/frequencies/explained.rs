@@ -106,7 +106,7 @@ impl Explained {
 }
 
 /// Root mean square of the residuals over their stated deviation, per degree of freedom; 1 where there is none to spare.
-pub(super) fn excess(solved: &Solved, problem: &Problem) -> f64 {
+fn excess(solved: &Solved, problem: &Problem) -> f64 {
     let spare = solved.residuals.len().saturating_sub(solved.logs.len());
     let sum: f64 = solved.residuals.iter().map(|residual| (residual / problem.deviation).powi(2)).sum();
     if spare == 0 { 1.0 } else { (sum / spare as f64).sqrt() }

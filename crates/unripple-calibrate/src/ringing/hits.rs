@@ -14,7 +14,12 @@ const FRAME: f64 = 1e-3;
 const ABOVE_USUAL: f64 = 6.0;
 
 /// A hit has at least this share of the power of the strongest one.
-const OF_STRONGEST: f64 = 0.05;
+const OF_STRONGEST: f64 = 0.1;
+
+/// A hit is this many times as strong as what was not predicted just before, as a ratio of powers, and so many frames are just before:
+/// after a hit, noise keeps ringing from being predicted well.
+const RISE: f64 = 4.0;
+const BEFORE: usize = 8;
 
 /// Two hits are at least this far apart, in s; what is closer is one contact.
 const APART: f64 = 6e-3;
@@ -38,11 +43,14 @@ pub(super) fn hits(recording: &[f64], rate: f64) -> Vec<Hit> {
     let strongest = powers.iter().copied().fold(0.0, f64::max);
     let least = (ABOVE_USUAL * usual).max(OF_STRONGEST * strongest);
     let mut hits: Vec<Hit> = Vec::new();
-    for (n, _) in powers.iter().enumerate().filter(|(_, power)| **power > least) {
+    for (n, power) in powers.iter().enumerate().filter(|(_, power)| **power > least) {
         let (from, to) = (ORDER + n * frame, (ORDER + (n + 1) * frame).min(recording.len()));
+        let before = &powers[n.saturating_sub(BEFORE)..n];
+        let rises = *power * before.len() as f64 > RISE * before.iter().sum::<f64>();
         match hits.last_mut() {
             Some(last) if (from as f64) < last.to as f64 + APART * rate => last.to = to,
-            _ => hits.push(Hit { from, to }),
+            _ if rises || n == 0 => hits.push(Hit { from, to }),
+            _ => {}
         }
     }
     hits
