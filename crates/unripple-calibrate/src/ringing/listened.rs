@@ -115,8 +115,12 @@ pub fn listen(recording: &[f64], rate: f64, options: &ListenOptions) -> Result<K
     let (from, to) = used(&hits, sound.len(), rate, options.hit)?;
     let tones = once(tones(&sound[from..to], rate, band));
     let in_band = |tone: &&Tone| (band[0]..=band[1]).contains(&tone.hz[0]);
-    let strongest = tones.iter().filter(in_band).filter(|tone| tone.rings());
-    let strongest = strongest.map(|tone| tone.amplitude).fold(f64::MIN_POSITIVE, f64::max);
+    let loudest = |modes_alone: bool| {
+        let those = tones.iter().filter(|tone| !modes_alone || (in_band(tone) && tone.rings()));
+        those.map(|tone| tone.amplitude).fold(0.0, f64::max)
+    };
+    // Where nothing rings, levels are relative to the strongest tone.
+    let strongest = if loudest(true) > 0.0 { loudest(true) } else { loudest(false) };
     let level = |tone: &Tone| 20.0 * (tone.amplitude / strongest).log10();
     let mut modes: Vec<&Tone> =
         tones.iter().filter(in_band).filter(|tone| tone.rings() && level(tone) >= options.least_db).collect();
