@@ -11,7 +11,7 @@ from unripple._report import Report
 if TYPE_CHECKING:
     from typing import Unpack
 
-    from unripple import _types
+    from unripple import _frequency_types, _types
 
 
 class Reporting:
@@ -188,6 +188,23 @@ class Reporting:
         True
         """
         return self._report("sensors", options)
+
+    def fit_modes(
+        self, modes: _frequency_types.Frequencies, /, **options: Unpack[_frequency_types.FitModesOptions]
+    ) -> Report:
+        """Fit the surface to natural frequencies alone, as :func:`fit_modes` does.
+
+        Returns
+        -------
+        Report
+
+        Examples
+        --------
+        >>> import unripple as ur
+        >>> ur.Surface("hudin-2012").fit_modes([171.4, 270.8, 343.0]).quantities[0].quantity
+        'tension'
+        """
+        return self._report("fit_modes", {**options, "modes": modes})
 
     def compare(
         self, targets: _types.Targets | None = None, /, **options: Unpack[_types.CompareOptions]
