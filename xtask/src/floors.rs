@@ -16,6 +16,7 @@ const FLOORS: &[(&str, i8)] = &[
     ("unripple-effects", 2),
     ("unripple-placement", 3),
     ("unripple-store", 3),
+    ("unripple-exchange", 3),
     ("unripple-plot", 3),
     ("unripple-touch", 3),
     ("unripple-devices", 3),

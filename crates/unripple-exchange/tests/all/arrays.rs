@@ -1,0 +1,138 @@
+//! Named arrays of numpy and of MATLAB: every type of number, both orders of axes, texts, and faults.
+
+use crate::archive::{npy, zip};
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use unripple_exchange::{Array, Arrays, Values, read_mat, read_npz, write_mat};
+
+fn one(descr: &str, first_fastest: bool, shape: &str, values: &[u8]) -> Array {
+    let file = zip(&[("a.npy", npy(descr, first_fastest, shape, values))], true);
+    read_npz(&file, "t.npz").unwrap().remove("a").unwrap()
+}
+
+fn refused(file: &[u8]) -> String {
+    read_npz(file, "t.npz").unwrap_err().to_string()
+}
+
+#[test]
+fn every_type_of_numpy_is_read() {
+    let floats: Vec<u8> = [1.5_f32, -2.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+    assert_eq!(one("<f4", false, "(2,)", &floats), Array::real(&[2], vec![1.5, -2.0]));
+    let turned: Vec<u8> = [1.5_f64, -2.0].iter().flat_map(|x| x.to_be_bytes()).collect();
+    assert_eq!(one(">f8", false, "(1, 2)", &turned), Array::real(&[1, 2], vec![1.5, -2.0]));
+    assert_eq!(one("<c16", false, "()", &turned).values.len(), 1);
+    let complex: Vec<u8> = [1.5_f32, -2.0, 0.0, 1.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+    assert_eq!(one("<c8", false, "(2,)", &complex).values, Values::Complex(vec![[1.5, -2.0], [0.0, 1.0]]));
+    for (descr, bytes, number) in [
+        ("|i1", &[0xff][..], -1.0),
+        ("|u1", &[0xff][..], 255.0),
+        ("|b1", &[1][..], 1.0),
+        ("<i2", &[0xfe, 0xff][..], -2.0),
+        (">u2", &[1, 0][..], 256.0),
+        ("<i4", &[0xff; 4][..], -1.0),
+        ("<i8", &[0xfd, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff][..], -3.0),
+    ] {
+        assert_eq!(one(descr, false, "()", bytes).as_number(), Some(number), "{descr}");
+    }
+    let letters: Vec<u8> = "a1\0zoë".chars().flat_map(|c| (c as u32).to_le_bytes()).collect();
+    assert_eq!(one("<U3", false, "(2,)", &letters).as_texts().unwrap(), ["a1", "zoë"]);
+    assert_eq!(one("|S2", false, "()", b"m/").as_text(), Some("m/"));
+    let by_columns: Vec<u8> =
+        [1.0_f64, 4.0, 2.0, 5.0, 3.0, 6.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+    assert_eq!(
+        one("<f8", true, "(2, 3)", &by_columns),
+        Array::real(&[2, 3], vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+    );
+}
+
+#[test]
+fn faults_of_npz_are_named() {
+    let array = npy("<f8", false, "(2,)", &[0; 16]);
+    let file = zip(&[("a.npy", array.clone()), ("readme.txt", b"none".to_vec())], false);
+    assert_eq!(read_npz(&file, "t.npz").unwrap().len(), 1);
+    assert!(refused(b"hello").contains("expected an NPZ file, which is a zip archive, found `hello`"));
+    assert!(refused(&file[..file.len() - 5]).contains("the end of a zip archive"));
+    assert!(refused(&zip(&[("a.npy", array[..array.len() - 8].to_vec())], false)).contains("`a`: byte"));
+    let huge = npy("<f8", false, "(10000000,)", &[0; 16]);
+    assert!(
+        refused(&zip(&[("a.npy", huge)], true))
+            .contains("expected the bytes of values of the shape [10000000]")
+    );
+    let past = npy("<f8", false, "(4294967296, 4294967296)", &[0; 16]);
+    assert!(refused(&zip(&[("a.npy", past)], true)).contains("the shape"));
+    let object = npy("|O", false, "(2,)", &[0; 16]);
+    assert!(refused(&zip(&[("a.npy", object)], true)).contains("numbers or texts"));
+    let twice = zip(&[("a.npy", array.clone()), ("a.npy", array.clone())], true);
+    assert!(refused(&twice).contains("`a`: expected each array once"));
+    let mut damaged = zip(&[("a.npy", array)], false);
+    damaged[60] ^= 1;
+    assert!(refused(&damaged).contains("the checksum"));
+}
+
+/// Arrays of each kind that MATLAB has.
+fn some() -> Arrays {
+    let names = |names: &[&str]| Array::texts(names.iter().map(|name| (*name).to_owned()).collect());
+    Arrays::from([
+        ("rate_hz".into(), Array::real(&[1, 1], vec![48e3])),
+        ("responses".into(), Array::real(&[2, 3, 2], (0..12).map(f64::from).collect())),
+        (
+            "spectrum".into(),
+            Array { shape: vec![1, 2], values: Values::Complex(vec![[1.0, -1.0], [1.0 / 3.0, 0.0]]) },
+        ),
+        ("actuators".into(), names(&["a1", "zoë", ""])),
+        ("unit".into(), names(&["m/s"])),
+    ])
+}
+
+#[test]
+fn what_is_written_for_matlab_is_read_again() {
+    assert_eq!(read_mat(&write_mat(&some()).unwrap(), "t.mat").unwrap(), some());
+    let bad = Arrays::from([("no name".into(), Array::real(&[1, 1], vec![0.0]))]);
+    assert!(write_mat(&bad).unwrap_err().to_string().contains("found `no name`"));
+}
+
+#[test]
+fn compressed_variables_are_read() {
+    let file = write_mat(&Arrays::from([("a".into(), Array::real(&[1, 3], vec![1.0, 2.0, 3.0]))])).unwrap();
+    let packed = compress_to_vec_zlib(&file[128..], 6);
+    let mut whole = file[..128].to_vec();
+    whole.extend(15_u32.to_le_bytes());
+    whole.extend((packed.len() as u32).to_le_bytes());
+    whole.extend(&packed);
+    let arrays = read_mat(&whole, "t.mat").unwrap();
+    assert_eq!(arrays["a"], Array::real(&[1, 3], vec![1.0, 2.0, 3.0]));
+    whole[140] ^= 0xff;
+    assert!(read_mat(&whole, "t.mat").unwrap_err().to_string().contains("byte 136"));
+}
+
+#[test]
+fn a_file_of_the_other_order_is_read() {
+    // By hand: a variable `x` of the class int8, kept as 16-bit integers, 2 by 2, with short elements.
+    let mut file = vec![b' '; 124];
+    file.extend([0x01, 0x00, b'M', b'I']);
+    let mut matrix = Vec::new();
+    for word in [6_u32, 8, 8, 0, 5, 8, 2, 2] {
+        matrix.extend(word.to_be_bytes());
+    }
+    matrix.extend([0, 1, 0, 1, b'x', 0, 0, 0]);
+    matrix.extend([0, 0, 0, 3, 0, 0, 0, 8, 0, 1, 0xff, 0xff, 0, 3, 0, 4]);
+    file.extend([14_u32.to_be_bytes(), (matrix.len() as u32).to_be_bytes()].concat());
+    file.extend(&matrix);
+    let arrays = read_mat(&file, "t.mat").unwrap();
+    assert_eq!(arrays["x"], Array::real(&[2, 2], vec![1.0, 3.0, -1.0, 4.0]));
+}
+
+#[test]
+fn faults_of_matlab_files_are_named() {
+    let refused = |file: &[u8]| read_mat(file, "t.mat").unwrap_err().to_string();
+    let file = write_mat(&some()).unwrap();
+    assert!(refused(b"MATLAB 7.3 MAT-file, Platform").contains("one of version 7.3"));
+    assert!(refused(b"short").contains("found 5 bytes"));
+    assert!(refused(&[b'x'; 200]).contains("version 5"));
+    assert!(refused(&file[..file.len() - 8]).contains("bytes of an element, found"));
+    // A shape of ten million numbers with few.
+    let mut claimed =
+        write_mat(&Arrays::from([("a".into(), Array::real(&[1, 3], vec![1.0, 2.0, 3.0]))])).unwrap();
+    let at = claimed.windows(8).position(|eight| eight == [1, 0, 0, 0, 3, 0, 0, 0]).unwrap();
+    claimed[at..at + 4].copy_from_slice(&10_000_000_i32.to_le_bytes());
+    assert!(refused(&claimed).contains("as many numbers as the shape [10000000, 3] of `a` has, found 3"));
+}
