@@ -38,7 +38,8 @@ use std::ffi::OsString;
 use talk::Talk;
 use unripple_paper::reproduce;
 use unripple_tasks::{
-    compare, design, devices, doctor, drift, export, field, listen, materials, modes, place, respond, sensors,
+    compare, design, devices, doctor, drift, export, field, import, listen, materials, modes, place, respond,
+    sensors,
 };
 
 /// The commit that the program was built from; empty where that is not known.
@@ -92,6 +93,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
     let common = &Common::of(json, &arguments.set, arguments.accuracy.as_deref())?;
     match &arguments.command {
         Command::Calibrate(options) => calibrate::run(options, common),
+        Command::Import(options) => output::perform(json, &options.ask(common)?, import::run),
         Command::Export(options) => output::perform(json, &options.ask(common)?, export::run),
         Command::Fit(options) => fit::run(options, common),
         Command::Listen(options) => output::perform(json, &options.ask(common)?, listen::run),

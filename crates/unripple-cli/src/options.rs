@@ -31,6 +31,7 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("keep_out_m", "--keep-out"),
     ("keep_m", "--keep"),
     ("places_m", "--place"),
+    ("actuator_names", "--actuator"),
     ("weights", "--at"),
     ("targets_within_m", "--screen"),
     ("share", "--share-percent"),
@@ -46,7 +47,7 @@ const OTHERWISE: &[(&str, &str)] = &[
 /// quote other words.
 const ALIKE: &str = "window_s length_s duration_s period_s movie_s probe_delay_s sweep_s response_s rim_m apart_m mounting_m format losses \
     output_scale without any_wiring check_levels resample repeats level figure device tape tape_inputs by no_model even_if_doubtful unknowns \
-    method tuio websocket listen screen real_time record keep_drive follow_tension no_ask";
+    method tuio websocket listen screen real_time record keep_drive follow_tension no_ask table";
 
 /// The option of a field that has another name than its field.
 fn otherwise(field: &str) -> Option<&'static str> {

@@ -50,6 +50,7 @@ pub mod fit_modes;
 pub mod focus;
 pub mod folder;
 pub mod grid;
+pub mod import;
 pub mod judge;
 pub mod late;
 mod lines;

@@ -61,6 +61,12 @@ fn asks_go_through_json() {
     through_json(&design::Ask::default());
     through_json(&modes::Ask { top_hz: Some(500.5), ..modes::Ask::default() });
     through_json(&respond::Ask { pitch_m: 0.0075, ..respond::Ask::default() });
+    through_json(&import::Ask {
+        kind: Some(import::Kind::ImpulseResponses),
+        per: Some(import::Per::Volt),
+        band_hz: Some([50.0, 3e3]),
+        ..import::Ask::default()
+    });
     through_json(&export::Ask { format: Some(export::Format::Sofa), ..export::Ask::default() });
     through_json(&materials::Ask { name: Some("glass".into()) });
     through_json(&devices::Ask::default());

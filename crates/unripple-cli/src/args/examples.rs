@@ -96,10 +96,23 @@ pub const CALIBRATE: &str = "Examples:
   From recordings made elsewhere; the first run writes the file to play:
     unripple calibrate my-surface.toml --device tape --tape takes --grid-mm 10 -o rig.zarr";
 
-/// For `export`: both formats.
+/// For `import`: what files say themselves, and what has to be said.
+pub const IMPORT: &str = "Examples:
+  What `export` wrote, and a universal file that says places and units:
+    unripple import my-surface.toml rig-wav -o again.zarr
+    unripple import my-surface.toml scan.uff -o scanned.zarr
+  Accelerations in g per volt, of a shaker that makes 2 N of a volt, placed by a table:
+    unripple import my-surface.toml taps.csv --table places.csv --unit g --per volt --drive-per-reference 2 -o tapped.zarr
+  WAV files whose names say where they are from:
+    unripple import my-surface.toml sweeps --pattern '{actuator}_{x_mm}_{y_mm}.wav' --kind filters --unit mm/s --per newton -o swept.zarr";
+
+/// For `export`: a line for each format.
 pub const EXPORT: &str = "Examples:
   unripple export rig.zarr -o rig-wav
-  unripple export rig.zarr -o rig.sofa --author 'Ada, ada@lab.example'";
+  unripple export rig.zarr -o rig.sofa --author 'Ada, ada@lab.example'
+  unripple export rig.zarr -o rig.uff
+  unripple export rig.zarr --format uff-modes -o modes.unv
+  unripple export rig.zarr -o rig.mat";
 
 /// For `play`: where touches come from and go to.
 pub const PLAY: &str = "Examples:

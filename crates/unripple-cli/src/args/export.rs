@@ -14,10 +14,10 @@ use unripple_tasks::export::Ask;
 pub struct ExportOptions {
     /// A library of responses.
     pub library: String,
-    /// Folder for WAV, or file for SOFA. An earlier export is replaced.
+    /// Folder for WAV, or file for other formats. An earlier export is replaced if it is WAV or SOFA; other files must not exist yet.
     #[arg(short, long, value_name = "DIR|FILE")]
     pub output: PathBuf,
-    /// Format; by default SOFA if the name ends in .sofa, WAV if it has no ending.
+    /// Format; by default the one that the ending of the name implies (.sofa, .uff, .unv, .mat), or WAV if it has none.
     #[arg(long, value_enum)]
     pub format: Option<FormatName>,
     /// SOFA: author to contact, with an address.

@@ -32,6 +32,8 @@ pub const CARD: &str = "Device: sound card";
 pub const TAPE: &str = "Device: tape (recordings made elsewhere)";
 /// A simulated surface as the device.
 pub const VIRTUAL: &str = "Device: virtual surface";
+/// What measured responses are, and their units.
+pub const MEASURED: &str = "What was measured";
 /// Points that a calibration measures.
 pub const POINTS: &str = "Points to measure";
 /// Signals that a calibration plays.

@@ -11,6 +11,7 @@ mod figures;
 mod fit;
 mod focus;
 mod heading;
+mod import;
 mod listen;
 mod names;
 mod optimise;
@@ -35,6 +36,7 @@ pub use field::FieldOptions;
 pub use figures::FigureOptions;
 pub use fit::FitOptions;
 pub use focus::{FocusOptions, TargetOptions};
+pub use import::ImportOptions;
 pub use listen::ListenOptions;
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
 pub use optimise::OptimiseOptions;
@@ -120,7 +122,9 @@ pub enum Command {
     Optimise(OptimiseOptions),
     /// Measure impulse responses through a device, as a library that `focus` and `field` accept in place of a surface.
     Calibrate(CalibrateOptions),
-    /// Export a library of responses as WAV files or as one SOFA file.
+    /// Make a library of responses or modes that other programs measured: universal files, CSV, NPZ, MATLAB and WAV.
+    Import(ImportOptions),
+    /// Export a library of responses as WAV files, or as one SOFA, universal or MATLAB file.
     Export(ExportOptions),
     /// Drive a surface live: touches in, waves out.
     Play(PlayOptions),

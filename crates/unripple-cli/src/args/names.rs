@@ -7,6 +7,7 @@ use unripple_tasks::DeviceKind;
 use unripple_tasks::calibrate::By;
 use unripple_tasks::export::Format;
 use unripple_tasks::focus::Losses;
+use unripple_tasks::import::{Kind, Per, Quantity};
 use unripple_tasks::place::{ByAsk, ObjectiveAsk};
 
 /// Defines names, each with its help, and their conversion to the values of the same names of another type.
@@ -117,11 +118,47 @@ names! {
         PerMode,
     }
 
+    /// What imported responses are.
+    KindName => Kind {
+        /// Ratios of the spectra of response and reference.
+        FrequencyResponses,
+        /// Responses to an impulse of one unit of the reference times one second.
+        ImpulseResponses,
+        /// Coefficients with which samples of the reference are convolved: impulse responses divided by the sample rate.
+        Filters,
+    }
+
+    /// What was measured at the points of imported responses.
+    QuantityName => Quantity {
+        /// Velocity normal to the sheet.
+        Velocity,
+        /// Displacement normal to the sheet.
+        Displacement,
+        /// Acceleration normal to the sheet.
+        Acceleration,
+    }
+
+    /// Unit of the reference of imported responses.
+    PerName => Per {
+        /// A force in newtons.
+        Newton,
+        /// A voltage in volts.
+        Volt,
+        /// A current in amperes.
+        Ampere,
+    }
+
     /// Formats that libraries are exported to.
     FormatName => Format {
         /// A folder with a float32 WAV file for each point, one channel per actuator, and library.json.
         Wav,
         /// One SOFA file: AES69, convention GeneralFIR-E, with points as measurements and actuators as emitters.
         Sofa,
+        /// One universal file: nodes, units and frequency responses.
+        Uff,
+        /// One universal file with the modes of the surface that the library describes.
+        UffModes,
+        /// One MATLAB file of version 5.
+        Mat,
     }
 }

@@ -100,7 +100,7 @@ pub struct Function {
     pub step: f64,
     /// The abscissa: 17 is time, 18 is frequency.
     pub abscissa: Axis,
-    /// The response.
+    /// The response as a quantity with its unit.
     pub numerator: Axis,
     /// The reference that the response is divided by.
     pub denominator: Axis,

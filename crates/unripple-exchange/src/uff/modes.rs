@@ -73,12 +73,11 @@ fn complex(records: &Records<'_>, line: Line<'_>) -> Result<Parameters, Exchange
     Ok((eigenvalue, scale, true))
 }
 
+/// Numbers of nodes, and their values as real and imaginary part.
+type Shape = Vec<(i64, Vec<[f64; 2]>)>;
+
 /// The values of all nodes, `each` of every node.
-fn shape(
-    records: &mut Records<'_>,
-    each: usize,
-    complex: bool,
-) -> Result<Vec<(i64, Vec<[f64; 2]>)>, ExchangeError> {
+fn shape(records: &mut Records<'_>, each: usize, complex: bool) -> Result<Shape, ExchangeError> {
     let mut shape = Vec::new();
     let numbers = each * (1 + usize::from(complex));
     while let Some(line) = records.record_or_end("a node")? {

@@ -14,6 +14,12 @@ pub enum Format {
     /// One SOFA file (AES69, convention GeneralFIR-E), with points as measurements and actuators as
     /// emitters.
     Sofa,
+    /// One universal file of text: nodes, units and frequency responses (datasets 2411, 164 and 58).
+    Uff,
+    /// One universal file with the modes of the surface that the library describes, at its points and actuators (dataset 55).
+    UffModes,
+    /// One MATLAB file of version 5 with the responses, places and names as arrays.
+    Mat,
 }
 
 impl Format {
@@ -22,6 +28,19 @@ impl Format {
         match self {
             Self::Wav => "wav",
             Self::Sofa => "sofa",
+            Self::Uff => "uff",
+            Self::UffModes => "uff-modes",
+            Self::Mat => "mat",
+        }
+    }
+
+    /// Name of the format in messages.
+    pub(super) fn told(self) -> &'static str {
+        match self {
+            Self::Wav => "WAV",
+            Self::Sofa => "SOFA",
+            Self::Uff | Self::UffModes => "UFF",
+            Self::Mat => "MATLAB",
         }
     }
 }
@@ -32,9 +51,9 @@ impl Format {
 pub struct Ask {
     /// A library of responses.
     pub library: PathBuf,
-    /// Path of the export: a folder for WAV, or a file for SOFA. An earlier export is replaced.
+    /// Path of the export: a folder for WAV, or a file. An earlier export is replaced if it is WAV or SOFA; other files must not exist yet.
     pub output: PathBuf,
-    /// Format; by default SOFA if the output's name ends in .sofa, WAV if it has no ending.
+    /// Format; by default the one that the ending of the output's name implies (.sofa, .uff, .unv, .mat), or WAV if it has none.
     pub format: Option<Format>,
     /// SOFA: author to contact, with an address.
     pub author: Option<String>,

@@ -1,6 +1,7 @@
 //! `export`: writes a library of responses in formats that other programs read.
 
 mod ask;
+mod foreign;
 mod report;
 mod run;
 

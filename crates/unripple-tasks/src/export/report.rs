@@ -14,7 +14,7 @@ pub struct Report {
     pub command: &'static str,
     /// Path of the library, as in the request.
     pub library: String,
-    /// Format of the export: `wav` or `sofa`.
+    /// Format of the export: `wav`, `sofa`, `uff`, `uff-modes` or `mat`.
     pub format: &'static str,
     /// Path of the export.
     pub output: String,

@@ -1,14 +1,14 @@
 //! Writes a library of responses in another format.
 
-use super::{Ask, Format, Report};
+use super::{Ask, Format, Report, foreign};
 use crate::{Progress, TaskError, go_on, source};
 use std::time::{SystemTime, UNIX_EPOCH};
 use unripple_store::{Library, PointState, SofaAbout};
 
-/// Writes a library as WAV files or as one SOFA file.
+/// Writes a library as WAV files, or as one SOFA, universal or MATLAB file.
 ///
 /// # Errors
-/// [`TaskError::Ask`] if no format is given and the output's name implies none, or if WAV is to hold what only SOFA
+/// [`TaskError::Ask`] if no format is given and the output's name implies none, or if another format is to hold what only SOFA
 /// holds; [`TaskError::Input`] of a library without a finished point; those of reading and writing files;
 /// [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
@@ -30,6 +30,9 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         committed = Some(match format {
             Format::Wav => library.export_wav(&ask.output)?,
             Format::Sofa => library.export_sofa(&ask.output, &about(ask))?,
+            Format::Uff => foreign::uff(&library, &ask.output)?,
+            Format::UffModes => foreign::modes(&library, &ask.output)?,
+            Format::Mat => foreign::mat(&library, &ask.output)?,
         });
         Ok(())
     })?;
@@ -60,18 +63,20 @@ fn format(ask: &Ask) -> Result<Format, TaskError> {
     let format = match (ask.format, ending.as_deref()) {
         (Some(format), _) => format,
         (None, Some("sofa")) => Format::Sofa,
+        (None, Some("uff" | "unv")) => Format::Uff,
+        (None, Some("mat")) => Format::Mat,
         (None, None) => Format::Wav,
         (None, Some(ending)) => {
             return Err(TaskError::ask(
                 "output",
-                "a name that ends in .sofa, a folder for WAV, or `format`",
+                "a name that ends in .sofa, .uff, .unv or .mat, a folder for WAV, or `format`",
                 format!("the ending `.{ending}` in {}", ask.output.display()),
             ));
         }
     };
     let said = [&ask.author, &ask.organization, &ask.license];
-    if format == Format::Wav && said.iter().any(|text| text.is_some()) {
-        return Err(TaskError::ask("author, organization, license", "SOFA, which holds them", "WAV"));
+    if format != Format::Sofa && said.iter().any(|text| text.is_some()) {
+        return Err(TaskError::ask("author, organization, license", "SOFA, which holds them", format.told()));
     }
     Ok(format)
 }

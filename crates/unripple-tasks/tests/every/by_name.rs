@@ -28,6 +28,7 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<compare::Ask>();
     whole::<respond::Ask>();
     whole::<calibrate::Ask>();
+    whole::<import::Ask>();
     whole::<fit::Ask>();
     whole::<listen::Ask>();
     whole::<fit_modes::Ask>();
@@ -39,7 +40,7 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<sweep::Ask>();
     whole::<optimise::Ask>();
     whole::<rerun::Ask>();
-    assert_eq!(commands::COMMANDS.len(), 24);
+    assert_eq!(commands::COMMANDS.len(), 25);
 }
 
 #[test]

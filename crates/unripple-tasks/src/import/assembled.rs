@@ -1,0 +1,307 @@
+//! Responses at the surface's points from its actuators, from what was read: names and places joined to the surface, all of one length.
+
+use super::measured::{Found, Measured, Who};
+use super::modal::Synthesis;
+use super::spectrum::Converter;
+use super::units::settle;
+use super::{Ask, Quantity, from_modes};
+use crate::window::conditions;
+use crate::{Progress, TaskError, go_on};
+use std::collections::{BTreeMap, BTreeSet};
+use unripple::act::unit;
+use unripple::core::{Conditions, Point, Surface, window_samples};
+use unripple::physics::Medium;
+
+/// Distance in metres within which a place in a file is that of an actuator: places are written to a tenth of a millimetre or so.
+const NEAR: f64 = 0.5e-3;
+
+/// Places per metre that are told apart: a nanometre.
+const PER_METRE: f64 = 1e9;
+
+/// Most points that a message names.
+const LISTED: usize = 3;
+
+/// Responses of each point, those of all actuators one after the other.
+pub(super) enum Rows {
+    /// Samples that were measured.
+    Stored(Vec<Vec<f32>>),
+    /// Modes, of which samples are computed when they are stored.
+    Modal(Synthesis),
+}
+
+impl Rows {
+    /// Responses of a point, actuators x samples, in m/s per unit of drive and second.
+    pub fn row(&self, point: usize) -> Vec<f32> {
+        match self {
+            Self::Stored(rows) => rows[point].clone(),
+            Self::Modal(synthesis) => synthesis.row(point),
+        }
+    }
+}
+
+/// Responses that are ready for a library, and what the report says of them.
+pub(super) struct Assembled {
+    /// Places of the points, in m.
+    pub points: Vec<Point>,
+    /// Responses of each point.
+    pub rows: Rows,
+    /// Number of samples of each response.
+    pub samples: usize,
+    /// Rate, band and shortest wavelength of the responses.
+    pub conditions: Conditions,
+    /// Kinds of what was read, each once.
+    pub kinds: BTreeSet<&'static str>,
+    /// Quantities of what was read, each once.
+    pub quantities: BTreeSet<&'static str>,
+    /// References of what was read, each once.
+    pub per: BTreeSet<&'static str>,
+    /// The lowest frequency of integrated accelerations, in Hz.
+    pub lowest: Option<f64>,
+    /// Number of modes; `None` of responses.
+    pub modes: Option<usize>,
+    /// What was left out and why, for the report.
+    pub left_out: Vec<String>,
+}
+
+/// Joins what was read to the surface.
+///
+/// # Errors
+/// [`TaskError::Input`] of an actuator or a place that is not the surface's, of responses that are there twice, not there, or of other lengths;
+/// those of [`settle`] and [`Converter::convert`]; [`TaskError::Cancelled`].
+pub(super) fn assembled(
+    ask: &Ask,
+    surface: &Surface,
+    mut found: Found,
+    progress: &mut dyn Progress,
+) -> Result<Assembled, TaskError> {
+    match (found.responses.is_empty(), found.modes.pop()) {
+        (false, None) => responses(ask, surface, found, progress),
+        (true, Some(modes)) if found.modes.is_empty() => {
+            from_modes::modal(ask, surface, modes, found.left_out)
+        }
+        (true, Some(modes)) => {
+            Err(TaskError::Input(format!("{}: expected modes of one file, found several", modes.from)))
+        }
+        (false, Some(modes)) => Err(TaskError::Input(format!(
+            "{}: expected responses or modes, found both; import them one after the other",
+            modes.from
+        ))),
+        (true, None) => {
+            let left = found.left_out.join("; ");
+            Err(TaskError::Input(format!("expected responses or modes, found none ({left})")))
+        }
+    }
+}
+
+/// A response, and where it is from.
+type Response = (Vec<f64>, String);
+
+/// Responses by point and actuator, as they are joined.
+struct Joining<'a> {
+    ask: &'a Ask,
+    surface: &'a Surface,
+    converter: Converter,
+    /// Index of each point by its place.
+    index: BTreeMap<[i64; 2], usize>,
+    points: Vec<Point>,
+    /// The response of each point to each actuator.
+    rows: Vec<Vec<Option<Response>>>,
+    /// Length of the responses, and where the first of them is from.
+    samples: Option<(usize, String)>,
+    band: [f64; 2],
+    told: [BTreeSet<&'static str>; 3],
+    lowest: Option<f64>,
+}
+
+fn responses(
+    ask: &Ask,
+    surface: &Surface,
+    found: Found,
+    progress: &mut dyn Progress,
+) -> Result<Assembled, TaskError> {
+    let mut joining = Joining {
+        ask,
+        surface,
+        converter: Converter::new(surface.emission.rate, ask.band_hz),
+        index: BTreeMap::new(),
+        points: Vec::new(),
+        rows: Vec::new(),
+        samples: None,
+        band: surface.emission.band,
+        told: [const { BTreeSet::new() }; 3],
+        lowest: None,
+    };
+    let count = found.responses.len();
+    for (n, measured) in found.responses.into_iter().enumerate() {
+        go_on(progress)?;
+        joining.join(measured)?;
+        progress.done((n + 1) as f64 / count as f64);
+    }
+    joining.whole(found.left_out)
+}
+
+impl Joining<'_> {
+    fn join(&mut self, measured: Measured) -> Result<(), TaskError> {
+        let Measured { from, who, at, signal, sign, says } = measured;
+        let actuator = resolved(self.ask, self.surface, &who, &from)?;
+        let name = &self.surface.actuators[actuator].name;
+        if self.ask.without.contains(name) {
+            return Ok(());
+        }
+        let point = self.point(at, &from)?;
+        if let Some((_, other)) = &self.rows[point][actuator] {
+            return Err(TaskError::Input(format!(
+                "{from}: expected one response of {at} to {name}, found another in {other}"
+            )));
+        }
+        let settled = settle(self.ask, &says, &signal, unit(&self.surface.actuators[actuator].kind), &from)?;
+        let mut converted = self.converter.convert(&signal, &settled, sign, &from)?;
+        if let Some(length) = self.ask.length_s {
+            converted.values.resize(window_samples(length, self.surface.emission.rate) + 1, 0.0);
+        }
+        let length = converted.values.len();
+        match &self.samples {
+            None => self.samples = Some((length, from.clone())),
+            Some((samples, _)) if *samples == length => {}
+            Some((samples, first)) => {
+                return Err(TaskError::Input(format!(
+                    "{from}: expected {samples} samples, as in {first}, found {length} (`length_s` makes all of one length)"
+                )));
+            }
+        }
+        if settled.quantity == Quantity::Acceleration {
+            self.lowest = Some(self.lowest.map_or(converted.band[0], |lowest| lowest.max(converted.band[0])));
+        }
+        self.band = [self.band[0].max(converted.band[0]), self.band[1].min(converted.band[1])];
+        let [kinds, quantities, per] = &mut self.told;
+        kinds.insert(settled.kind.name());
+        quantities.insert(settled.quantity.name());
+        per.insert(settled.per.symbol());
+        self.rows[point][actuator] = Some((converted.values, from));
+        Ok(())
+    }
+
+    /// Index of the point at a place, which is added if it is new.
+    fn point(&mut self, at: Point, from: &str) -> Result<usize, TaskError> {
+        on_sheet(self.surface, at, from)?;
+        let next = self.points.len();
+        let index = *self.index.entry(key(at)).or_insert(next);
+        if index == next {
+            self.points.push(at);
+            self.rows.push(vec![None; self.surface.actuators.len()]);
+        }
+        Ok(index)
+    }
+
+    /// All responses, without points that lack some.
+    fn whole(self, mut left_out: Vec<String>) -> Result<Assembled, TaskError> {
+        let (surface, without) = (self.surface, &self.ask.without);
+        let is_needed = |actuator: usize| !without.contains(&surface.actuators[actuator].name);
+        let needed: Vec<usize> = (0..surface.actuators.len()).filter(|a| is_needed(*a)).collect();
+        let unmeasured: Vec<&str> = needed
+            .iter()
+            .filter(|a| self.rows.iter().all(|row| row[**a].is_none()))
+            .map(|a| surface.actuators[*a].name.as_str())
+            .collect();
+        if !unmeasured.is_empty() {
+            let found = format!("none of {}", unmeasured.join(", "));
+            let expected = "responses to all actuators, or the names of those that were not measured";
+            return Err(TaskError::ask("without", expected, found));
+        }
+        let samples = self.samples.map_or(0, |(samples, _)| samples);
+        let (mut points, mut rows, mut lacking) = (Vec::new(), Vec::new(), Vec::new());
+        for (at, row) in self.points.into_iter().zip(self.rows) {
+            if needed.iter().any(|actuator| row[*actuator].is_none()) {
+                lacking.push(at.to_string());
+                continue;
+            }
+            let each = row.into_iter().flat_map(|response| match response {
+                Some((values, _)) => values.into_iter().map(|value| value as f32).collect::<Vec<f32>>(),
+                None => vec![0.0; samples],
+            });
+            points.push(at);
+            rows.push(each.collect());
+        }
+        if points.is_empty() {
+            return Err(TaskError::Input(format!(
+                "expected points with responses to all actuators, found {} with some of them",
+                lacking.len()
+            )));
+        }
+        if !lacking.is_empty() {
+            let named = lacking[..lacking.len().min(LISTED)].join(", ");
+            left_out.push(format!("{} points without responses to all actuators: {named}", lacking.len()));
+        }
+        let conditions = limited(surface, self.band)?;
+        let [kinds, quantities, per] = self.told;
+        let (rows, lowest) = (Rows::Stored(rows), self.lowest);
+        Ok(Assembled {
+            points,
+            rows,
+            samples,
+            conditions,
+            kinds,
+            quantities,
+            per,
+            lowest,
+            modes: None,
+            left_out,
+        })
+    }
+}
+
+/// A place to the nanometre, as a key.
+pub(super) fn key(at: Point) -> [i64; 2] {
+    [at.x, at.y].map(|coordinate| (coordinate * PER_METRE).round() as i64)
+}
+
+/// Refuses a place off the sheet.
+pub(super) fn on_sheet(surface: &Surface, at: Point, from: &str) -> Result<(), TaskError> {
+    match at.is_finite() && surface.outline.contains(at) {
+        true => Ok(()),
+        false => Err(TaskError::Input(format!(
+            "{from}: expected a point on the surface, found {at}, off its edge"
+        ))),
+    }
+}
+
+/// The actuator that a file means: by the request, by its name, or by its place.
+pub(super) fn resolved(ask: &Ask, surface: &Surface, who: &Who, from: &str) -> Result<usize, TaskError> {
+    let named = |name: &String| surface.actuators.iter().position(|actuator| actuator.name == *name);
+    let asked = ask.actuator_names.iter().find(|(_, other)| who.names.contains(other)).map(|(name, _)| name);
+    let known = asked.and_then(named).or_else(|| who.names.iter().find_map(named));
+    let near = || {
+        let at = who.at?;
+        let near = (0..surface.actuators.len()).filter(|a| surface.actuators[*a].at.distance(at) <= NEAR);
+        near.min_by(|a, b| {
+            let distance = |a: usize| surface.actuators[a].at.distance(at);
+            distance(*a).total_cmp(&distance(*b))
+        })
+    };
+    known.or_else(near).ok_or_else(|| {
+        let all: Vec<&str> = surface.actuators.iter().map(|actuator| actuator.name.as_str()).collect();
+        let found = match who.at {
+            Some(at) => format!("`{}` at {at}", who.names.join("`, `")),
+            None => format!("`{}`", who.names.join("`, `")),
+        };
+        TaskError::ask(
+            "actuator_names",
+            format!("one of {} by name or place, or which of them it is", all.join(", ")),
+            format!("{found} ({from})"),
+        )
+    })
+}
+
+/// Rate, band, wavelength and outline of responses that hold a band.
+pub(super) fn limited(surface: &Surface, [low, high]: [f64; 2]) -> Result<Conditions, TaskError> {
+    if low >= high {
+        let [least, most] = surface.emission.band;
+        return Err(TaskError::ask(
+            "band_hz",
+            format!("responses with frequencies of the surface's band, {least} to {most} Hz"),
+            format!("none between {low} and {high} Hz"),
+        ));
+    }
+    let lambda_min = Medium::of(&surface.sheet).lambda_min(high);
+    Ok(Conditions { band: [low, high], lambda_min, ..conditions(surface) })
+}

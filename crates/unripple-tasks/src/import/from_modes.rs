@@ -1,0 +1,116 @@
+//! Responses of modes that were identified elsewhere, at their nodes.
+
+use super::assembled::{Assembled, Rows, key, limited, on_sheet, resolved};
+use super::measured::Who;
+use super::modal::{Mode, Modes, Synthesis};
+use super::units::drive_per_reference;
+use super::{Ask, Per};
+use crate::TaskError;
+use std::collections::BTreeSet;
+use unripple::act::unit;
+use unripple::core::{Point, Surface, window_samples};
+use unripple_calibrate::measure::MOST_KEPT;
+
+/// Amplitude that modes have decayed to at the end, as a natural logarithm: ln 1000, 60 dB.
+const DECAYED: f64 = 6.907_755_278_982_137;
+
+/// Responses of modes at their nodes to actuators at some of them.
+///
+/// # Errors
+/// [`TaskError::Ask`] of an actuator without a node, or a length that has to be said; [`TaskError::Input`] of nodes off the sheet and of modes
+/// that are all beyond the band.
+pub(super) fn modal(
+    ask: &Ask,
+    surface: &Surface,
+    found: Modes,
+    mut left_out: Vec<String>,
+) -> Result<Assembled, TaskError> {
+    let rate = surface.emission.rate;
+    let [low, high] = ask.band_hz.unwrap_or([0.0, 0.5 * rate]);
+    let count = found.modes.len();
+    let carried = |mode: &Mode| (low..=high).contains(&mode.hz()) && mode.hz() < 0.5 * rate;
+    let modes: Vec<Mode> = found.modes.into_iter().filter(carried).collect();
+    let top = modes.iter().map(Mode::hz).fold(0.0, f64::max);
+    if modes.is_empty() {
+        let expected = format!("modes from {low} to {high} Hz");
+        return Err(TaskError::Input(format!("{}: expected {expected}, found none", found.from)));
+    }
+    if modes.len() < count {
+        left_out.push(format!(
+            "{}: {} modes beyond the band or half the sample rate",
+            found.from,
+            count - modes.len()
+        ));
+    }
+    let drives = drives(ask, surface, &found.names, &found.places, &found.from)?;
+    let samples = window_samples(duration(ask, &modes)?, rate) + 1;
+    let (points, nodes) = distinct(&found.places);
+    let (most, least) = (surface.emission.band[1].min(high).min(top), surface.emission.band[0].max(low));
+    let conditions = limited(surface, [least, most])?;
+    let told = |text| BTreeSet::from([text]);
+    Ok(Assembled {
+        points,
+        samples,
+        conditions,
+        kinds: told("modes"),
+        quantities: told("displacement"),
+        per: told("N"),
+        lowest: None,
+        modes: Some(modes.len()),
+        left_out,
+        rows: Rows::Modal(Synthesis::new(modes, drives, nodes, 1.0 / rate, samples)),
+    })
+}
+
+/// The node of each actuator and the factor of its responses; `None` of those that are left out.
+fn drives(
+    ask: &Ask,
+    surface: &Surface,
+    names: &[String],
+    places: &[Point],
+    from: &str,
+) -> Result<Vec<Option<(usize, f64)>>, TaskError> {
+    let mut drives: Vec<Option<(usize, f64)>> = vec![None; surface.actuators.len()];
+    for (node, (name, at)) in names.iter().zip(places).enumerate() {
+        on_sheet(surface, *at, &format!("{from}: node {name}"))?;
+        // Most nodes are at no actuator.
+        let who = Who { names: vec![name.clone()], at: Some(*at) };
+        let Ok(actuator) = resolved(ask, surface, &who, from) else { continue };
+        let kind = unit(&surface.actuators[actuator].kind);
+        let scale = 1.0 / drive_per_reference(ask, Per::Newton, kind, from)?;
+        drives[actuator] = Some((node, scale));
+    }
+    for (drive, actuator) in drives.iter_mut().zip(&surface.actuators) {
+        if ask.without.contains(&actuator.name) {
+            *drive = None;
+        } else if drive.is_none() {
+            let expected =
+                "a node for each actuator, by its place or by `actuator_names`, or the names of those without";
+            let found = format!("none for {} at {} in {}", actuator.name, actuator.at, from);
+            return Err(TaskError::ask("without, actuator_names", expected, found));
+        }
+    }
+    Ok(drives)
+}
+
+/// Different places, and the first node at each.
+fn distinct(places: &[Point]) -> (Vec<Point>, Vec<usize>) {
+    let mut known = BTreeSet::new();
+    places.iter().enumerate().filter(|(_, at)| known.insert(key(**at))).map(|(node, at)| (*at, node)).unzip()
+}
+
+/// How long responses of modes are, in s: what the request says, or until the slowest mode has decayed.
+fn duration(ask: &Ask, modes: &[Mode]) -> Result<f64, TaskError> {
+    if let Some(length) = ask.length_s {
+        return Ok(length);
+    }
+    let slowest = modes.iter().map(|mode| -mode.eigenvalue.re).fold(f64::INFINITY, f64::min);
+    let seconds = DECAYED / slowest;
+    match seconds <= MOST_KEPT {
+        true => Ok(seconds),
+        false => {
+            let found = format!("none, and the slowest mode takes {seconds} s to decay by 60 dB");
+            Err(TaskError::ask("length_s", "the length of the responses", found))
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! Responses and modes from universal files.
+
+use super::labels::Labels;
+use super::measured::{Complex, Found, Measured, Says, Signal, Who};
+use super::{Kind, Per, Quantity, uff_modes, units};
+use crate::TaskError;
+use std::collections::BTreeMap;
+use unripple::core::Point;
+use unripple_exchange::{Axis, Dof, Function, Uff, read_uff};
+
+/// Numbers of quantities in universal files.
+const DISPLACEMENT: i64 = 8;
+const VELOCITY: i64 = 11;
+const ACCELERATION: i64 = 12;
+const FORCES: [i64; 2] = [9, 13];
+const FREQUENCY: i64 = 18;
+
+/// Numbers of kinds of functions.
+const UNKNOWN: i64 = 0;
+const TIME_RESPONSE: i64 = 1;
+const FREQUENCY_RESPONSE: i64 = 4;
+const FILTER: i64 = 25;
+
+/// The direction normal to the sheet, z, and that of a scalar.
+const NORMAL: i64 = 3;
+const SCALAR: i64 = 0;
+
+/// Largest distance from one plane that nodes may have, as a share of their extent: what is farther off is no flat sheet.
+const FLAT: f64 = 1e-3;
+
+/// Reads a universal file.
+pub(super) fn read(bytes: &[u8], file: &str, labels: &Labels, found: &mut Found) -> Result<(), TaskError> {
+    let uff = read_uff(bytes, file).map_err(TaskError::input)?;
+    let nodes = Nodes::of(&uff, file, labels)?;
+    let (mut kinds, mut directions) = (0, 0);
+    for function in &uff.functions {
+        let kind = match function.kind {
+            FREQUENCY_RESPONSE => Some(Kind::FrequencyResponses),
+            FILTER => Some(Kind::Filters),
+            UNKNOWN | TIME_RESPONSE => None,
+            // Coherences, power spectra and the like.
+            _ => {
+                kinds += 1;
+                continue;
+            }
+        };
+        let Some(sign) = normal(&function.response).zip(normal(&function.reference)).map(|(a, b)| a * b)
+        else {
+            directions += 1;
+            continue;
+        };
+        found.responses.push(measured(function, kind, sign, file, &nodes)?);
+    }
+    for (count, why) in
+        [(kinds, "functions of other kinds"), (directions, "functions in other directions than z")]
+    {
+        if count > 0 {
+            found.left_out.push(format!("{file}: {count} {why}"));
+        }
+    }
+    if !uff.modes.is_empty() {
+        found.modes.push(uff_modes::of_file(&uff, file, &nodes)?);
+    }
+    if uff.functions.is_empty() && uff.modes.is_empty() {
+        let others: Vec<&str> = uff.others.keys().map(String::as_str).collect();
+        let others = if others.is_empty() { "none".into() } else { others.join(", ") };
+        return Err(TaskError::Input(format!("{file}: expected datasets 58, 58b or 55, found {others}")));
+    }
+    Ok(())
+}
+
+/// 1 for a direction along z or a scalar, -1 against z; `None` for others.
+fn normal(dof: &Dof) -> Option<f64> {
+    match dof.direction {
+        NORMAL | SCALAR => Some(1.0),
+        _ if dof.direction == -NORMAL => Some(-1.0),
+        _ => None,
+    }
+}
+
+fn measured(
+    function: &Function,
+    kind: Option<Kind>,
+    sign: f64,
+    file: &str,
+    nodes: &Nodes<'_>,
+) -> Result<Measured, TaskError> {
+    let from = format!("{file}: dataset {}", function.dataset);
+    let refused =
+        |expected: &str, found: &str| TaskError::Input(format!("{from}: expected {expected}, found {found}"));
+    let (start, step) = (function.start, function.step);
+    let in_frequency = function.abscissa.quantity == FREQUENCY || kind == Some(Kind::FrequencyResponses);
+    let signal = match (in_frequency, function.complex) {
+        (true, true) => {
+            let pairs = function.values.as_chunks::<2>().0.iter();
+            let values = pairs.map(|[re, im]| Complex::new(*re, *im)).collect();
+            Signal::Frequency { start, step, values }
+        }
+        (false, false) => Signal::Time { start, step, values: function.values.clone() },
+        (true, false) => return Err(refused("complex values in frequency", "real ones")),
+        (false, true) => return Err(refused("real values in time", "complex ones")),
+    };
+    let at = nodes.place(function.response.node, &from)?;
+    let reference = &function.reference;
+    let named = (!reference.name.is_empty()).then(|| reference.name.clone());
+    let names = named.into_iter().chain([reference.node.to_string()]).collect();
+    let who = Who { names, at: nodes.known(reference.node)? };
+    let says = Says { kind, ..says(&function.numerator, &function.denominator, nodes.units) };
+    Ok(Measured { from, who, at, signal, sign, says })
+}
+
+/// Units of a universal file: metres and newtons in its units.
+pub(super) type Units = Option<(f64, f64)>;
+
+/// What the quantities and units of the axes say.
+fn says(numerator: &Axis, denominator: &Axis, units: Units) -> Says {
+    let quantity = match numerator.quantity {
+        DISPLACEMENT => Some(Quantity::Displacement),
+        VELOCITY => Some(Quantity::Velocity),
+        ACCELERATION => Some(Quantity::Acceleration),
+        _ => None,
+    };
+    // A unit of another quantity than the number says is not believed.
+    let unit = units::response(&numerator.unit).filter(|(of_unit, _)| quantity.is_none_or(|q| q == *of_unit));
+    let by_label = units::reference(&denominator.unit);
+    let by_units =
+        units.filter(|_| FORCES.contains(&denominator.quantity)).map(|(_, newtons)| (Per::Newton, newtons));
+    Says { kind: None, quantity, unit, length: units.map(|(metres, _)| metres), per: by_label.or(by_units) }
+}
+
+/// Nodes of a universal file by their numbers.
+pub(super) struct Nodes<'a> {
+    at: BTreeMap<i64, [f64; 2]>,
+    length: Option<f64>,
+    labels: &'a Labels,
+    file: &'a str,
+    /// Metres and newtons in the units of the file.
+    pub units: Units,
+}
+
+impl<'a> Nodes<'a> {
+    fn of(uff: &Uff, file: &'a str, labels: &'a Labels) -> Result<Self, TaskError> {
+        let mut at = BTreeMap::new();
+        for node in &uff.nodes {
+            let [x, y, z] = node.at;
+            if let Some([u, v, w]) = at.insert(node.label, node.at).filter(|other| *other != node.at) {
+                return Err(TaskError::Input(format!(
+                    "{file}: dataset {}, line {}: expected node {} at {u}, {v}, {w} as before, found {x}, {y}, {z}",
+                    node.dataset, node.line, node.label
+                )));
+            }
+        }
+        flat(&at, file)?;
+        let units = uff.units.as_ref().map(|units| (1.0 / units.length, 1.0 / units.force));
+        let length = units.map(|(metres, _)| metres).or(labels.length());
+        let at = at.into_iter().map(|(label, [x, y, _])| (label, [x, y])).collect();
+        Ok(Self { at, length, labels, file, units })
+    }
+
+    /// The place of a node in m, from the table of the request or from the file; `None` if neither has it.
+    ///
+    /// # Errors
+    /// [`TaskError::Ask`] if the unit of length is not known.
+    pub fn known(&self, label: i64) -> Result<Option<Point>, TaskError> {
+        if let Some(at) = self.labels.node(label) {
+            return Ok(Some(at));
+        }
+        let Some([x, y]) = self.at.get(&label) else { return Ok(None) };
+        let metres = self.length.map_or_else(|| self.labels.needed_length(self.file), Ok)?;
+        Ok(Some(self.labels.moved(metres * x, metres * y)))
+    }
+
+    /// Kilograms in the unit of mass of the file, by its units of force and length.
+    ///
+    /// # Errors
+    /// [`TaskError::Ask`] if these are not known.
+    pub fn kilograms(&self) -> Result<f64, TaskError> {
+        if let Some((metres, newtons)) = self.units {
+            return Ok(newtons / metres);
+        }
+        match (self.length, self.labels.in_newtons()) {
+            (Some(metres), true) => Ok(1.0 / metres),
+            _ => {
+                let expected = "the units of length and force, by which modal masses are known";
+                let found = format!("none, and {} has no dataset 164", self.file);
+                Err(TaskError::ask("length_unit, per", expected, found))
+            }
+        }
+    }
+
+    /// The place of a node, in m.
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] of a node without a place, and those of [`known`](Self::known).
+    pub fn place(&self, label: i64, from: &str) -> Result<Point, TaskError> {
+        self.known(label)?.ok_or_else(|| {
+            TaskError::Input(format!(
+                "{from}: expected the place of node {label} in dataset 15 or 2411, or in `table`, found none"
+            ))
+        })
+    }
+}
+
+/// Refuses nodes that do not lie in a plane of constant z.
+fn flat(nodes: &BTreeMap<i64, [f64; 3]>, file: &str) -> Result<(), TaskError> {
+    let extent = |axis: usize| {
+        let all = nodes.values().map(|at| at[axis]);
+        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        (high - low).max(0.0)
+    };
+    let [x, y, z] = [0, 1, 2].map(extent);
+    if nodes.len() < 2 || z <= FLAT * x.max(y) {
+        return Ok(());
+    }
+    Err(TaskError::Input(format!(
+        "{file}: expected nodes in one plane of constant z, found {z} between the lowest and the highest"
+    )))
+}

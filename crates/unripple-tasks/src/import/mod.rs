@@ -1,0 +1,23 @@
+//! `import`: makes a library of responses that other programs measured, or of modes that they identified.
+
+mod ask;
+mod assembled;
+mod from_arrays;
+mod from_modes;
+mod from_table;
+mod from_uff;
+mod from_wav;
+mod labels;
+mod measured;
+mod modal;
+mod pattern;
+mod read;
+mod report;
+mod run;
+mod spectrum;
+mod uff_modes;
+mod units;
+
+pub use ask::{Ask, Kind, Per, Quantity};
+pub use report::Report;
+pub use run::run;
