@@ -24,6 +24,7 @@ mod export;
 mod figures;
 mod fit;
 mod frequencies;
+mod import;
 mod judged;
 mod keys;
 mod level;

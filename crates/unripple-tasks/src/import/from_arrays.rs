@@ -1,7 +1,8 @@
 //! Responses from named arrays, as NPZ and MATLAB files hold them.
 //!
 //! `responses` is points x actuators x samples, or lines in frequency; `actuators` has the names, `points_m` or `points_mm` the places, and one
-//! of `rate_hz`, `time_s` and `frequency_hz` the abscissa. `kind`, `quantity`, `unit` and `per` may say what the values are.
+//! of `rate_hz`, `time_s` and `frequency_hz` the abscissa. `kind`, `quantity`, `unit` and `per` may say what the values are; instead of `per`,
+//! `drive_units` may say the unit of each actuator's reference.
 
 use super::from_table::even;
 use super::labels::Labels;
@@ -25,6 +26,8 @@ pub(super) fn read(arrays: Arrays, file: &str, labels: &Labels, found: &mut Foun
     let reading = Reading { arrays, file, labels };
     let (names, points) = (reading.names()?, reading.points()?);
     let says = reading.says()?;
+    let units =
+        reading.arrays.get("drive_units").and_then(Array::as_texts).filter(|u| u.len() == names.len());
     let responses = reading.needed("responses")?;
     let shape = shape(&responses.shape, points.len(), names.len());
     let Some(samples) = shape.filter(|samples| *samples > 1) else {
@@ -38,6 +41,7 @@ pub(super) fn read(arrays: Arrays, file: &str, labels: &Labels, found: &mut Foun
     for (p, at) in points.iter().enumerate() {
         for (a, name) in names.iter().enumerate() {
             let from = (p * names.len() + a) * samples;
+            let by_unit = units.and_then(|units| units::reference(&units[a]));
             let signal = reading.signal(&responses.values, from..from + samples, &abscissa)?;
             found.responses.push(Measured {
                 from: format!("{file}: point {}, {name}", p + 1),
@@ -45,7 +49,7 @@ pub(super) fn read(arrays: Arrays, file: &str, labels: &Labels, found: &mut Foun
                 at: *at,
                 signal,
                 sign: 1.0,
-                says,
+                says: Says { per: says.per.or(by_unit), ..says },
             });
         }
     }
