@@ -25,6 +25,9 @@ SCHEMA = ROOT / "crates/unripple-tasks/schema/report-1.json"
 # Classes whose methods do commands, by the name that readers know them by.
 CLASSES = {"Surface": unripple.Surface, "Responses": unripple.Responses}
 
+# Functions that are not called as their command, whose name is a word of Python.
+NAMED = {"import": "import_measurements"}
+
 # Fields that are given in another way than as options.
 APART = {
     "surface": ["the object itself, or the first argument", "keys of it by `set`"],
@@ -57,7 +60,8 @@ def commands() -> dict[str, list[str]]:
     """The functions and methods that do each command, but for `run`."""
     found = {}
     for command in _unripple.commands():
-        own = [f"unripple.{command}"] if callable(getattr(unripple, command, None)) else []
+        function = NAMED.get(command, command)
+        own = [f"unripple.{function}"] if callable(getattr(unripple, function, None)) else []
         found[command] = own + [f"{name}.{command}" for name, of in CLASSES.items() if hasattr(of, command)]
     return found
 

@@ -31,6 +31,11 @@ def _respond(folder: Path) -> None:
     film().respond(folder / "film", grid_mm=30, length_ms=40)
 
 
+def _exported(folder: Path) -> None:
+    _respond(folder)
+    ur.export(folder / "film", folder / "film-wav")
+
+
 def _focus(folder: Path) -> None:
     film().focus([(62, 90)], window_ms=20).to_wav(folder / "drive.wav")
 
@@ -206,6 +211,13 @@ CASES: dict[str, tuple[list[str], Callable[[], ur.Report], Before | None]] = {
         lambda: ur.sweep("plan.toml", "swept", no_figures=True),
         _plan,
     ),
+    "import": (
+        ["import", *_FILM, "film-wav", "-o", "again", "--band-hz", "50,400", "--offset-mm", "0.3,0", "--length-ms", "15.3"],
+        lambda: ur.import_measurements(
+            film(), "film-wav", "again", band_hz=(50, 400), offset_mm=(0.3, 0), length_ms=15.3
+        ),
+        _exported,
+    ),
     "export": (["export", "film", "-o", "wav"], lambda: ur.export("film", "wav"), _respond),
     "calibrate": (
         ["calibrate", *_FILM, "--unknowns", "3", "--at", "62,90.1", "--sweep-ms", "100", "--response-ms", "50.3"]
@@ -258,7 +270,7 @@ def test_the_report_is_the_same(
     assert _comparable(found) == _comparable(typed)
     assert found["run"]["command"] == typed["run"]["command"]
     # What was asked is the same, too, but for how the surface and the files were named.
-    apart = ("surface", "drive", "library", "plan", "output")
+    apart = ("surface", "drive", "library", "plan", "output", "files")
     asked = [{k: v for k, v in report["run"]["ask"].items() if k not in apart} for report in (found, typed)]
     assert asked[0] == asked[1]
 

@@ -17,6 +17,7 @@ from unripple._errors import (
 )
 from unripple._field import Field
 from unripple._frequencies import fit_modes, listen
+from unripple._importing import import_measurements
 from unripple._libraries import calibrate, export, fit, open, respond
 from unripple._lists import builtin, commands, devices, effects, materials
 from unripple._motion import FingerMotion, Snapshots, Traces
@@ -83,6 +84,7 @@ __all__ = [
     "fit",
     "fit_modes",
     "focus",
+    "import_measurements",
     "listen",
     "materials",
     "modes",

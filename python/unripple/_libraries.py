@@ -156,16 +156,17 @@ def fit(
 
 
 def export(library: _types.Path, output: _types.Path, **options: Unpack[_types.ExportOptions]) -> Report:
-    """Export a library of responses as WAV files or as one SOFA file.
+    """Export a library of responses as WAV files, or as one SOFA, universal or MATLAB file.
 
     Parameters
     ----------
     library
         A library of responses.
     output
-        Folder for WAV, or file for SOFA. An earlier export is replaced.
+        Folder for WAV, or file for other formats. An earlier export is replaced if it is WAV or SOFA; other files must not exist yet.
     format
-        ``"wav"`` or ``"sofa"``; by default SOFA if the name ends in .sofa, WAV if it has no ending.
+        ``"wav"``, ``"sofa"``, ``"uff"``, ``"uff-modes"`` (the modes of the library's surface) or ``"mat"``; by default what the ending of
+        the name implies, or WAV if it has none.
     author, organization, license
         SOFA: what the file says of itself.
 

@@ -106,6 +106,11 @@ def _taps(name: str, value: object) -> Any:
     return "taps" if flag(name, value) else NOTHING
 
 
+def _band(name: str, value: object) -> list[float]:
+    """Return a lowest and a highest frequency, in Hz."""
+    return _values.row(name, value, "LOW,HIGH in Hz", 2, 2)
+
+
 def _surface(_name: str, value: object) -> Any:
     from unripple._naming import surface_ask
 
@@ -284,6 +289,17 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         Option("error_percent", "error", percent),
         *_same(flag, "sides_known"),
         *_FIGURES,
+    ),
+    "import": (
+        *_same(_values.paths, "files"),
+        *_same(text, "kind", "quantity", "unit", "per", "pattern", "length_unit"),
+        *_same(number, "drive_per_reference"),
+        *_same(_band, "band_hz"),
+        *_same(path, "table", "output"),
+        Option("offset_mm", "offset_m", _values.place),
+        Option("actuator", "actuator_names", _wires),
+        *_same(_values.texts, "without"),
+        Option("length_ms", "length_s", milli),
     ),
     "export": (
         *_same(path, "library", "output"),
