@@ -116,6 +116,15 @@ impl<'a> Records<'a> {
         Ok(())
     }
 
+    /// Whether the mark that ends the dataset stands behind so many bytes.
+    pub fn ends_after(&self, count: usize) -> bool {
+        let Some(rest) = self.rest.get(count..) else { return false };
+        let rest = rest.strip_prefix(b"\r").unwrap_or(rest);
+        let rest = rest.strip_prefix(b"\n").unwrap_or(rest);
+        let end = rest.iter().position(|b| *b == b'\n').unwrap_or(rest.len());
+        Line { number: 0, bytes: &rest[..end] }.is_mark()
+    }
+
     /// Bytes of a binary dataset, as many as its first line says.
     pub fn binary(&mut self, count: usize) -> Result<&'a [u8], ExchangeError> {
         let Some((taken, rest)) = self.rest.split_at_checked(count) else {

@@ -147,6 +147,10 @@ fn both_orders_of_bytes_are_read() {
             values(&binary(&head(4, 2, 0, 0.0, 0.0), order, &mixed.concat())),
             (false, vec![1.0, 2.0])
         );
+        // As many bytes as the mark says, where complex values are counted as real ones.
+        let file = binary(&head(6, 2, 1, 0.0, 0.5), order, &double(order, &[1.0, 2.0, 3.0, 4.0]));
+        let counted = String::from_utf8_lossy(&file[..60]).replacen("          32", "          16", 1);
+        assert_eq!(values(&[counted.as_bytes(), &file[60..]].concat()), (true, vec![1.0, 2.0, 3.0, 4.0]));
         // Said to be in the other order than they are.
         let sines: Vec<f32> = (1..=64_u8).map(|n| f32::from(n).sin()).collect();
         let error = refused(&binary(&head(2, 64, 1, 0.0, 0.5), order, &single(3 - order, &sines)));
