@@ -74,6 +74,11 @@ pub(crate) fn members(bytes: &[u8], file: &str) -> Result<Vec<Member>, ExchangeE
         members.push(member);
         at += size;
     }
+    // Members that share bytes would take more memory than the file bounds.
+    let packed = members.iter().fold(0_u64, |sum, member| sum.saturating_add(member.packed));
+    if packed > bytes.len() as u64 {
+        return Err(refused(end, "members that share no bytes", "more bytes than the file has"));
+    }
     Ok(members)
 }
 
@@ -167,7 +172,7 @@ fn crc32(bytes: &[u8]) -> u32 {
         }
         table
     };
-    !bytes.iter().fold(!0, |check, byte| TABLE[usize::from((check as u8) ^ byte)] ^ (check >> 8))
+    !bytes.iter().fold(u32::MAX, |check: u32, byte| TABLE[usize::from((check as u8) ^ byte)] ^ (check >> 8))
 }
 
 /// Refuses what is no archive at all, so that the message says what the file is.

@@ -63,6 +63,15 @@ fn faults_of_npz_are_named() {
     assert!(refused(&zip(&[("a.npy", object)], true)).contains("numbers or texts"));
     let twice = zip(&[("a.npy", array.clone()), ("a.npy", array.clone())], true);
     assert!(refused(&twice).contains("`a`: expected each array once"));
+    // A second entry of the directory for the same bytes, which are most of the file.
+    let large = npy("<f8", false, "(1000,)", &[7; 8000]);
+    let shared = zip(&[("a.npy", large)], false);
+    let end = shared.len() - 22;
+    let entry = shared.windows(4).position(|four| four == b"PK\x01\x02").unwrap();
+    let mut shared = [&shared[..end], &shared[entry..]].concat();
+    let count = shared.len() - 22 + 10;
+    shared[count] = 2;
+    assert!(refused(&shared).contains("members that share no bytes"));
     let mut damaged = zip(&[("a.npy", array)], false);
     damaged[60] ^= 1;
     assert!(refused(&damaged).contains("the checksum"));

@@ -84,8 +84,7 @@ fn drives(
         if ask.without.contains(&actuator.name) {
             *drive = None;
         } else if drive.is_none() {
-            let expected =
-                "a node for each actuator, by its place or by `actuator_names`, or the names of those without";
+            let expected = "a node for each actuator, by its place or by `actuator_names`, or the names of those without";
             let found = format!("none for {} at {} in {}", actuator.name, actuator.at, from);
             return Err(TaskError::ask("without, actuator_names", expected, found));
         }
