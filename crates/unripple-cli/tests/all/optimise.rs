@@ -55,7 +55,7 @@ done
 fn one_process_asks_for_all_generations() {
     let scratch = Scratch::new("optimise-asked");
     scratch.file("film.toml", common::SMALL_FILM);
-    let plan = scratch.file("plan.toml", &PLAN.replace("generations = 2", "generations = 5"));
+    let plan = scratch.file("plan.toml", PLAN.replace("generations = 2", "generations = 5"));
     let (script, out) = (scratch.file("optimiser", OPTIMISER), scratch.join("out"));
     fs::set_permissions(&script, fs::Permissions::from_mode(0o755)).unwrap();
     let search = || {
