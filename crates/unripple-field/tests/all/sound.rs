@@ -41,6 +41,7 @@ fn mass(shapes: impl Shapes + 'static, shape: Shape) -> Responses {
         shapes: Arc::new(shapes),
         conditions: Conditions { rate: RATE, band: [0.0, 1e4], lambda_min: 0.03, outline },
         frequency_error: 0.0,
+        mode_errors: Vec::new(),
     })
 }
 
