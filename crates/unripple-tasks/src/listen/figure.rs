@@ -34,6 +34,27 @@ fn recording(report: &Report, sound: &[f64]) -> Figure {
     let band = Band { x, low, high, label: "recording".into(), ink: Ink::Palette(0) };
     let mut layers: Vec<Layer> = vec![used.into(), band.into()];
     layers.extend(report.hits_s.iter().map(|hit| Layer::from(Rule { at: *hit, ..Rule::default() })));
+    let plot =
+        Plot { x: Axis::new("Time (s)"), y: Axis::new("Recording (full scale)"), layers, ..Plot::default() };
+    let description =
+        "The recording: least and greatest samples over time, the hits, and the part that was used".into();
+    Figure { description, ..Figure::of(plot) }
+}
+
+/// The decay time of every mode, over its frequency.
+fn modes(report: &Report) -> Figure {
+    let error = |mode: &super::Rung| {
+        let [low, high] = mode.decay_interval_s;
+        [mode.decay_time_s - low, high - mode.decay_time_s]
+    };
+    let points = Points {
+        x: report.modes.iter().map(|mode| mode.frequency_hz).collect(),
+        y: report.modes.iter().map(|mode| mode.decay_time_s).collect(),
+        error: report.modes.iter().map(error).collect(),
+        label: String::new(),
+        ink: Ink::Palette(0),
+        mark: Mark::Disc,
+    };
     let plot = Plot {
         x: Axis { scale: Scale::Logarithmic, ..Axis::new("Frequency (Hz)") },
         y: Axis::new("Decay time (ms)").times(1e3),
