@@ -13,6 +13,9 @@ import unripple as ur
 
 matplotlib.use("Agg")
 
+#: What `./soak sweeps` alone runs.
+collect_ignore = [] if "UNRIPPLE_DESIGNS" in os.environ else ["test_sweep_many.py"]
+
 
 def pytest_configure() -> None:
     """Let Ctrl+C through: a shell script starts what it runs in the background with that signal ignored, and so would be what tests start."""

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 import csv
-import socket
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import distributed
 import pytest
+from dask_processes import Cluster
 
 import unripple as ur
 
@@ -33,50 +29,12 @@ steps = {_DESIGNS}
 """
 
 
-class Cluster:
-    """A scheduler and workers, each a process of its own."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder, self.address = folder, ""
-        self.processes: list[subprocess.Popen[bytes]] = []
-
-    def start(self, *command: str) -> subprocess.Popen[bytes]:
-        """Start a process of Dask, whose log is beside the rows."""
-        with open(self.folder / f"dask-{len(self.processes)}.log", "wb") as log:
-            started = subprocess.Popen([sys.executable, "-m", "dask", *command], stdout=log, stderr=log)
-        self.processes.append(started)
-        return started
-
-    def scheduler(self) -> subprocess.Popen[bytes]:
-        """Start a scheduler at a free port."""
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]
-        self.address = f"tcp://127.0.0.1:{port}"
-        return self.start(
-            "scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard", "--no-show"
-        )
-
-    def worker(self) -> subprocess.Popen[bytes]:
-        """Start a worker of one thread, which no nanny starts again."""
-        place = ("--host", "127.0.0.1", "--local-directory", str(self.folder / "workers"))
-        return self.start("worker", self.address, "--no-nanny", "--nthreads", "1", "--no-dashboard", *place)
-
-    @contextlib.contextmanager
-    def client(self) -> Iterator[distributed.Client]:
-        """Connect to the scheduler; give up soon where it does not come back."""
-        with distributed.Client(self.address, timeout=60, set_as_default=False) as client:  # type: ignore[no-untyped-call]
-            yield client
-
-
 @pytest.fixture
 def cluster(folder: Path) -> Iterator[Cluster]:
     """Processes of Dask, which end with the test."""
     started = Cluster(folder)
     yield started
-    for process in started.processes:
-        process.kill()
-        process.wait()
+    started.end()
 
 
 @pytest.fixture(scope="module")
