@@ -1,9 +1,9 @@
 //! Datasets 58 and 58b: a function of time or frequency.
 
+use super::dataset::{Axis, Dof, Function};
 use super::fields::text;
 use super::lines::{Line, Records};
 use super::values::{self, Coding, Layout};
-use super::{Axis, Dof, Function};
 use crate::ExchangeError;
 use crate::bytes::Order;
 

@@ -1,6 +1,6 @@
 //! Dataset 55: the shape of a mode at nodes.
 
-use super::Mode;
+use super::dataset::Mode;
 use super::fields::columns;
 use super::lines::{Line, Records};
 use crate::ExchangeError;

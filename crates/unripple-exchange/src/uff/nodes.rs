@@ -1,8 +1,8 @@
 //! Datasets 15 and 2411, nodes, and 164, units.
 
+use super::dataset::{Node, UffUnits};
 use super::fields::text;
 use super::lines::Records;
-use super::{Node, UffUnits};
 use crate::ExchangeError;
 
 /// Reads the nodes of a dataset; `is_double` says whether it is 2411, which has a record of its own for the coordinates.

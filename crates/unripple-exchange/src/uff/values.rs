@@ -1,6 +1,6 @@
 //! Values of a function, as text and in binary, at abscissae that are even or written beside them.
 
-use super::Function;
+use super::dataset::Function;
 use super::fields::columns;
 use super::lines::Records;
 use crate::ExchangeError;

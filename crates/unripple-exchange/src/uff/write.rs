@@ -1,6 +1,6 @@
 //! Writes universal files: units (164), nodes (2411), modes (55) and functions (58, as text of double precision).
 
-use super::{Axis, Dof, Function, Mode, Uff};
+use super::dataset::{Axis, Dof, Function, Mode, Uff};
 use crate::ExchangeError;
 use std::fmt::Write;
 
