@@ -1,6 +1,7 @@
 //! The instrument that plays a surface: device, engine, and the modes from which pictures are computed.
 
 use super::lens::Lens;
+use super::page_fingers::SHOWN;
 use super::page_touches::{News, PageTouches};
 use super::past::{room, stride};
 use super::playback::{Away, Playback};
@@ -146,6 +147,14 @@ impl Instrument {
     /// Samples per second.
     pub fn rate(&self) -> f64 {
         self.spec.surface.emission.rate
+    }
+
+    /// How long a press stays on the surface at least, in s of its clock: until its focus has been shown. A real surface does not wait.
+    pub fn hold(&self) -> f64 {
+        match self.playback {
+            Playback::Here(_) => self.window.seconds + SHOWN,
+            Playback::Away(_) => 0.0,
+        }
     }
 }
 

@@ -27,7 +27,6 @@ use crate::outbox::Outbox;
 use crate::wire;
 use page_fingers::PageFingers;
 use playback::{Known, Playback, step};
-use pressing::hold;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use unripple::core::Point;
@@ -117,7 +116,7 @@ impl Simulation {
     /// A simulation that plays an instrument.
     pub fn new(instrument: Instrument) -> Self {
         let mut fingers = PageFingers::default();
-        fingers.renew(hold(&instrument));
+        fingers.renew(instrument.hold());
         Self {
             instrument,
             next: None,
@@ -258,7 +257,7 @@ impl Simulation {
         self.wrong = None;
         self.targets.clear();
         self.tell_gain();
-        self.fingers.renew(hold(&self.instrument));
+        self.fingers.renew(self.instrument.hold());
         self.press();
         let plant = &self.instrument.plant;
         for probe in &mut self.probes {

@@ -1,9 +1,9 @@
 //! Fingers of pages on the surface that is played, and the level of what they set off.
 
-use super::page_fingers::{FINGERS, SHOWN};
+use super::Simulation;
+use super::page_fingers::FINGERS;
 use super::page_touches::News;
 use super::playback::Playback;
-use super::{Instrument, Simulation};
 use unripple::core::Point;
 
 impl Simulation {
@@ -48,13 +48,5 @@ impl Simulation {
         let outline = &self.instrument.spec.surface.outline;
         let here = self.fingers.places().filter(|(_, at)| outline.contains(*at));
         here.map(|((page, finger), at)| (page * FINGERS + u64::from(finger), at)).collect()
-    }
-}
-
-/// How long a press stays on a surface at least, in s of its clock: until its focus has been shown. A real surface does not wait.
-pub fn hold(instrument: &Instrument) -> f64 {
-    match instrument.playback {
-        Playback::Here(_) => instrument.window.seconds + SHOWN,
-        Playback::Away(_) => 0.0,
     }
 }
