@@ -1,8 +1,9 @@
 //! Responses from WAV files: those that `export` writes, with `library.json`, and others, with a table or a pattern of their names.
 
+use super::bytes::bytes;
 use super::labels::Labels;
 use super::measured::{Found, Measured, Says, Signal, Who};
-use super::{Kind, Quantity, read, units};
+use super::{Kind, Quantity, units};
 use crate::TaskError;
 use serde_json::Value;
 use std::path::Path;
@@ -76,7 +77,7 @@ fn exported(path: &Path, index: &Path, labels: &Labels, found: &mut Found) -> Re
     let refused = |expected: &str, found: String| {
         TaskError::Input(format!("{file}: expected {expected}, found {found}"))
     };
-    let about: Value = serde_json::from_slice(&read::bytes(index)?)
+    let about: Value = serde_json::from_slice(&bytes(index)?)
         .map_err(|error| refused("the JSON that `export` writes", error.to_string()))?;
     let list = |key: &str| {
         about[key].as_array().ok_or_else(|| refused(&format!("a list `{key}`"), about[key].to_string()))

@@ -1,5 +1,6 @@
 //! Actuators and places of files, columns and nodes, from a table or from their names.
 
+use super::bytes::bytes;
 use super::measured::Who;
 use super::pattern::Pattern;
 use super::{Ask, Per, units};
@@ -45,7 +46,7 @@ impl Labels {
         let newtons = ask.per == Some(Per::Newton);
         let mut labels = Self { table: BTreeMap::new(), pattern, length, offset: ask.offset_m, newtons };
         if let Some(path) = &ask.table {
-            let bytes = super::read::bytes(path)?;
+            let bytes = bytes(path)?;
             labels.add(&bytes, &path.display().to_string())?;
         }
         Ok(labels)

@@ -2,6 +2,7 @@
 
 mod ask;
 mod assembled;
+mod bytes;
 mod from_arrays;
 mod from_modes;
 mod from_table;

@@ -1,12 +1,12 @@
 //! Reads files by the endings of their names.
 
+use super::bytes::bytes;
 use super::labels::Labels;
 use super::measured::Found;
 use super::{from_arrays, from_table, from_uff, from_wav};
 use crate::{Progress, TaskError, go_on};
-use std::fs::{self, File};
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::fs::File;
+use std::path::PathBuf;
 
 /// Endings of files that are read, for messages.
 const ENDINGS: &str = ".uff, .unv, .csv, .npz or .mat, or a folder of WAV files";
@@ -53,22 +53,4 @@ pub(super) fn all(
         progress.done((n + 1) as f64 / files.len() as f64);
     }
     Ok(found)
-}
-
-/// The bytes of a regular file.
-///
-/// # Errors
-/// [`TaskError::Input`] of a file that cannot be read, or for which there is no memory.
-pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, TaskError> {
-    let refused = |error: std::io::Error| TaskError::Input(format!("{}: {error}", path.display()));
-    let metadata = fs::metadata(path).map_err(refused)?;
-    if !metadata.is_file() {
-        return Err(TaskError::Input(format!("{}: expected a file, found something else", path.display())));
-    }
-    let mut bytes = Vec::new();
-    let room = usize::try_from(metadata.len()).unwrap_or(usize::MAX);
-    let memory = |_| refused(std::io::ErrorKind::OutOfMemory.into());
-    bytes.try_reserve_exact(room).map_err(memory)?;
-    File::open(path).and_then(|file| file.take(metadata.len()).read_to_end(&mut bytes)).map_err(refused)?;
-    Ok(bytes)
 }
