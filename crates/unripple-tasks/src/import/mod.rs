@@ -17,6 +17,7 @@ mod report;
 mod run;
 mod spectrum;
 mod uff_modes;
+mod uff_nodes;
 mod units;
 
 pub use ask::{Ask, Kind, Per, Quantity};

@@ -1,9 +1,9 @@
 //! Modes from dataset 55 of universal files, and from tables of nodes by modes.
 
-use super::from_uff::Nodes;
 use super::labels::Labels;
 use super::measured::Complex;
 use super::modal::{Mode, Modes};
+use super::uff_nodes::Nodes;
 use crate::TaskError;
 use std::f64::consts::PI;
 use unripple::core::Point;
