@@ -4,7 +4,7 @@
 //! of `rate_hz`, `time_s` and `frequency_hz` the abscissa. `kind`, `quantity`, `unit` and `per` may say what the values are; instead of `per`,
 //! `drive_units` may say the unit of each actuator's reference.
 
-use super::from_table::even;
+use super::abscissa::even;
 use super::labels::Labels;
 use super::measured::{Complex, Found, Measured, Says, Signal, Who};
 use super::{Kind, Per, Quantity, units};

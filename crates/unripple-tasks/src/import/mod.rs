@@ -1,5 +1,6 @@
 //! `import`: makes a library of responses that other programs measured, or of modes that they identified.
 
+mod abscissa;
 mod ask;
 mod assembled;
 mod bytes;
