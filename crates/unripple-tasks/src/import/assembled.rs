@@ -1,6 +1,7 @@
 //! Responses at the surface's points from its actuators, from what was read: names and places joined to the surface, all of one length.
 
-use super::measured::{Found, Measured, Who};
+use super::found::Found;
+use super::measured::{Measured, Who};
 use super::modal::Synthesis;
 use super::spectrum::Converter;
 use super::units::settle;

@@ -5,8 +5,9 @@
 //! `drive_units` may say the unit of each actuator's reference.
 
 use super::abscissa::even;
+use super::found::Found;
 use super::labels::Labels;
-use super::measured::{Complex, Found, Measured, Says, Signal, Who};
+use super::measured::{Complex, Measured, Says, Signal, Who};
 use super::{Kind, Per, Quantity, units};
 use crate::TaskError;
 use serde::de::DeserializeOwned;

@@ -1,8 +1,9 @@
 //! Responses from a table of numbers, one in each column, or two for a complex one; and tables of modes.
 
 use super::abscissa::even;
+use super::found::Found;
 use super::labels::Labels;
-use super::measured::{Complex, Found, Measured, Says, Signal};
+use super::measured::{Complex, Measured, Says, Signal};
 use super::{Kind, uff_modes};
 use crate::TaskError;
 use unripple_exchange::{Columns, Csv, read_columns};

@@ -1,7 +1,8 @@
 //! Responses and modes from universal files.
 
+use super::found::Found;
 use super::labels::Labels;
-use super::measured::{Complex, Found, Measured, Says, Signal, Who};
+use super::measured::{Complex, Measured, Says, Signal, Who};
 use super::uff_nodes::{Nodes, Units};
 use super::{Kind, Per, Quantity, uff_modes, units};
 use crate::TaskError;

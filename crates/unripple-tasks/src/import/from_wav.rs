@@ -1,8 +1,9 @@
 //! Responses from WAV files: those that `export` writes, with `library.json`, and others, with a table or a pattern of their names.
 
 use super::bytes::bytes;
+use super::found::Found;
 use super::labels::Labels;
-use super::measured::{Found, Measured, Says, Signal, Who};
+use super::measured::{Measured, Says, Signal, Who};
 use super::{Kind, Quantity, units};
 use crate::TaskError;
 use serde_json::Value;

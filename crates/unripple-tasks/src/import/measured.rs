@@ -54,14 +54,3 @@ pub(super) struct Says {
     /// The reference, and SI units per unit of it, from the name of a unit.
     pub per: Option<(Per, f64)>,
 }
-
-/// All that was read of all files.
-#[derive(Default)]
-pub(super) struct Found {
-    /// Responses in the order of the files.
-    pub responses: Vec<Measured>,
-    /// Modes, by file.
-    pub modes: Vec<super::modal::Modes>,
-    /// What was left out and why, for the report.
-    pub left_out: Vec<String>,
-}

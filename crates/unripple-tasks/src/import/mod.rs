@@ -4,6 +4,7 @@ mod abscissa;
 mod ask;
 mod assembled;
 mod bytes;
+mod found;
 mod from_arrays;
 mod from_modes;
 mod from_table;

@@ -1,8 +1,8 @@
 //! Reads files by the endings of their names.
 
 use super::bytes::bytes;
+use super::found::Found;
 use super::labels::Labels;
-use super::measured::Found;
 use super::{from_arrays, from_table, from_uff, from_wav};
 use crate::{Progress, TaskError, go_on};
 use std::fs::File;
