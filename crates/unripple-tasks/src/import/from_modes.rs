@@ -1,8 +1,9 @@
 //! Responses of modes that were identified elsewhere, at their nodes.
 
-use super::assembled::{Assembled, Rows, key, limited, on_sheet, resolved};
+use super::assembled::{Assembled, Rows};
 use super::measured::Who;
 use super::modal::{Mode, Modes, Synthesis};
+use super::on_surface::{key, limited, on_sheet, resolved};
 use super::units::drive_per_reference;
 use super::{Ask, Per};
 use crate::TaskError;

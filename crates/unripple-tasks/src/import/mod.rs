@@ -13,6 +13,7 @@ mod from_wav;
 mod labels;
 mod measured;
 mod modal;
+mod on_surface;
 mod pattern;
 mod read;
 mod report;
