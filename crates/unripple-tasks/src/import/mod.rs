@@ -10,6 +10,7 @@ mod from_modes;
 mod from_table;
 mod from_uff;
 mod from_wav;
+mod joining;
 mod labels;
 mod measured;
 mod modal;

@@ -1,6 +1,7 @@
 //! Reads files of other programs, and writes a library of responses.
 
-use super::assembled::{Assembled, assembled};
+use super::assembled::Assembled;
+use super::joining::assembled;
 use super::labels::Labels;
 use super::{Ask, Report, read};
 use crate::numbers::above_zero;
