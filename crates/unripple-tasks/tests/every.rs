@@ -56,7 +56,7 @@ fn through_json<A: Serialize + DeserializeOwned + PartialEq + Debug>(ask: &A) {
 }
 
 #[test]
-fn asks_go_through_json() {
+fn asks_about_surfaces_and_devices_go_through_json() {
     through_json(&check::Ask::default());
     through_json(&design::Ask::default());
     through_json(&modes::Ask { top_hz: Some(500.5), ..modes::Ask::default() });
@@ -81,7 +81,23 @@ fn asks_go_through_json() {
     });
     through_json(&listen::Ask { band_hz: Some([20.0, 2e3]), ..listen::Ask::default() });
     through_json(&calibrate::Ask { by: calibrate::By::Tap, ..calibrate::Ask::default() });
-    through_json(&play::Ask::default());
+    through_json(&place::Ask {
+        importance: Some("map.csv".into()),
+        important: vec![place::ImportantAsk {
+            area_m: vec![[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]],
+            weight: 2.0,
+        }],
+        methods: vec![unripple::focus::Method::Inverse],
+        by: Some(place::ByAsk::FeltContrast),
+        evaluations: Some(30),
+        ..place::Ask::default()
+    });
+    through_json(&optimise::Ask { no_ask: true, ..optimise::Ask::default() });
+    through_json(&sweep::Ask { shard: Some(3), output: Some("out".into()), ..sweep::Ask::default() });
+}
+
+#[test]
+fn asks_for_drives_go_through_json() {
     through_json(&compare::Ask {
         others: vec!["drum".into()],
         methods: vec![unripple::focus::Method::Felt, unripple::focus::Method::OneBit],
@@ -111,19 +127,7 @@ fn asks_go_through_json() {
         ..waveform::Ask::default()
     });
     through_json(&stroke::Ask::default());
-    through_json(&place::Ask {
-        importance: Some("map.csv".into()),
-        important: vec![place::ImportantAsk {
-            area_m: vec![[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]],
-            weight: 2.0,
-        }],
-        methods: vec![unripple::focus::Method::Inverse],
-        by: Some(place::ByAsk::FeltContrast),
-        evaluations: Some(30),
-        ..place::Ask::default()
-    });
-    through_json(&optimise::Ask { no_ask: true, ..optimise::Ask::default() });
-    through_json(&sweep::Ask { shard: Some(3), output: Some("out".into()), ..sweep::Ask::default() });
+    through_json(&play::Ask::default());
 }
 
 /// A task that was cancelled before it began.
