@@ -18,7 +18,7 @@ from unripple._report import Report
 if TYPE_CHECKING:
     from typing import Unpack
 
-    from unripple import _types
+    from unripple import _exchange_types, _types
 
 #: Types of numbers that are handed over as they are; others become double ones.
 _KEPT = (np.float32, np.float64, np.complex64, np.complex128)
@@ -37,7 +37,7 @@ def import_measurements(
     frequency_hz: npt.ArrayLike | None = None,
     points_mm: npt.ArrayLike | None = None,
     actuators: Sequence[str] | None = None,
-    **options: Unpack[_types.ImportOptions],
+    **options: Unpack[_exchange_types.ImportOptions],
 ) -> Report:
     """Make a library of responses or modes that other programs measured, from files or from an array.
 

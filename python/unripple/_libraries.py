@@ -13,7 +13,7 @@ from unripple._responses import Responses
 if TYPE_CHECKING:
     from typing import Unpack
 
-    from unripple import _types
+    from unripple import _exchange_types, _types
 
 
 def open(path: _types.Path, *, progress: bool | ProgressCallback | None = None) -> Responses:
@@ -155,7 +155,9 @@ def fit(
     return _call.report("fit", options, library=library, output=output)
 
 
-def export(library: _types.Path, output: _types.Path, **options: Unpack[_types.ExportOptions]) -> Report:
+def export(
+    library: _types.Path, output: _types.Path, **options: Unpack[_exchange_types.ExportOptions]
+) -> Report:
     """Export a library of responses as WAV files, or as one SOFA, universal or MATLAB file.
 
     Parameters

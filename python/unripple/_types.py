@@ -325,36 +325,6 @@ class FitOptions(CallOptions, total=False):
     accuracy: float | None
 
 
-class ImportOptions(SurfaceOptions, total=False):
-    """Options of `import`."""
-
-    kind: Literal["frequency-responses", "impulse-responses", "filters"] | None
-    quantity: Literal["velocity", "displacement", "acceleration"] | None
-    unit: str | None
-    per: Literal["newton", "volt", "ampere"] | None
-    drive_per_reference: float | None
-    band_hz: Row | None
-    table: Path | None
-    pattern: str | None
-    length_unit: str | None
-    offset_mm: Row | None
-    offset_m: Row | None
-    actuator: Mapping[str, str] | Sequence[str] | None
-    actuator_names: Sequence[Sequence[str]] | None
-    without: Sequence[str] | str | None
-    length_ms: float | None
-    length_s: float | None
-
-
-class ExportOptions(CallOptions, total=False):
-    """Options of `export`."""
-
-    format: Literal["wav", "sofa", "uff", "uff-modes", "mat"] | None
-    author: str | None
-    organization: str | None
-    license: str | None
-
-
 class DriftOptions(DeviceOptions, total=False):
     """Options of `drift`."""
 
