@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +27,9 @@ _KEPT = (np.float32, np.float64, np.complex64, np.complex128)
 #: The names of an array's abscissa, of which one is given.
 _ABSCISSAE = ("rate_hz", "time_s", "frequency_hz")
 
+#: The places of an array's points, and the names of its actuators.
+_PLACES = ("points_mm", "actuators")
+
 
 def import_measurements(
     surface: _types.SurfaceLike,
@@ -46,25 +50,19 @@ def import_measurements(
     surface
         The surface that was measured, with its actuators.
     measured
-        Files with responses or modes (.uff, .unv, .csv, .npz, .mat) or folders of WAV files; or responses as an array of shape (points,
-        actuators, samples), real in time, complex in frequency.
+        Files with responses or modes (.uff, .unv, .csv, .npz, .mat), folders of WAV files, or an array of shape (points, actuators, samples).
     output
         Folder of the library.
-    rate_hz, time_s, frequency_hz
-        Of an array, one of these: the sample rate, or all times or frequencies, which must be even.
-    points_mm, actuators
-        Of an array: places of the points in mm, of shape (points, 2), and names of the actuators.
-    kind
-        ``"frequency-responses"``, ``"impulse-responses"`` or ``"filters"``, if the file does not say it.
-    quantity, unit, per
-        What was measured (``"velocity"``, ``"displacement"``, ``"acceleration"``), its unit (such as ``"mm/s"`` or ``"g"``, which says the
-        quantity as well), and the unit of the reference (``"newton"``, ``"volt"``, ``"ampere"``).
-    drive_per_reference
-        Drive of the actuators in their own unit for one unit of the reference.
-    table, pattern
-        What names of files, columns or nodes do not say: a CSV, or a pattern such as ``"{actuator}_{x_mm}_{y_mm}.wav"``.
-    length_unit, offset_mm
-        Unit of the places in files, and what is added to them.
+    rate_hz, time_s, frequency_hz, points_mm, actuators
+        Of an array: the sample rate or all times of real values, or all frequencies of complex ones, which must be even; places of the points
+        in mm, of shape (points, 2); and names of the actuators.
+    kind, quantity, unit, per, drive_per_reference
+        If the file does not say it: ``"frequency-responses"``, ``"impulse-responses"`` or ``"filters"``; what was measured (``"velocity"``,
+        ``"displacement"``, ``"acceleration"``) and its unit (such as ``"mm/s"`` or ``"g"``, which says the quantity as well); the unit of
+        the reference (``"newton"``, ``"volt"``, ``"ampere"``); and the drive of the actuators, in their own unit, for one unit of it.
+    table, pattern, length_unit, offset_mm
+        What names of files, columns or nodes do not say: a CSV, or a pattern such as ``"{actuator}_{x_mm}_{y_mm}.wav"``; the unit of the
+        places in files, and what is added to them.
     actuator, without
         Names of actuators in the files, as a mapping from their own, and names of those that were not measured.
     band_hz, length_ms
@@ -76,44 +74,50 @@ def import_measurements(
 
     Raises
     ------
-    AskError
-        Of what has to be said, since the file does not say it.
-    InputError
-        Of a file with a fault, and of points and actuators that are not the surface's.
+    AskError, InputError
+        Of what has to be said, of a file with a fault, and of points and actuators that are not the surface's.
 
     Examples
     --------
     >>> import tempfile
     >>> import unripple as ur
     >>> film = ur.Surface("hudin-2012", band_hz=[0, 500])
-    >>> points = [(40, 50), (62, 90)]
-    >>> h = 1e3 * film.responses().impulse(points, length_ms=20)
+    >>> h = 1e3 * film.responses().impulse([(62, 90)], length_ms=20)
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     report = ur.import_measurements(film, h, f"{folder}/own", rate_hz=48000, points_mm=points, actuators=film.names,
-    ...                                     kind="impulse-responses", unit="mm/s", per="newton")
-    >>> report.points, report.quantity
-    (2, 'velocity')
+    ...     ur.import_measurements(film, h, f"{folder}/own", rate_hz=48000, points_mm=[(62, 90)], actuators=film.names,
+    ...                            kind="impulse-responses", unit="mm/s", per="newton").quantity
+    'velocity'
     """
-    given = {"rate_hz": rate_hz, "time_s": time_s, "frequency_hz": frequency_hz}
-    abscissa = {name: value for name, value in given.items() if value is not None}
-    places = {"points_mm": points_mm, "actuators": actuators}
+    with _files(measured, rate_hz, time_s, frequency_hz, points_mm, actuators) as files:
+        return _call.report("import", options, surface=surface, files=files, output=output)
+
+
+@contextlib.contextmanager
+def _files(measured: Any, *beside: Any) -> Iterator[Any]:
+    """Yield files with what was measured: those that were named, or one of an array and of its abscissa and places beside it."""
+    given = dict(zip((*_ABSCISSAE, *_PLACES), beside, strict=True))
     if _is_files(measured):
-        for name, value in {**abscissa, **places}.items():
+        for name, value in given.items():
             if value is not None:
                 raise OptionError(f"import: expected {name} beside an array alone, found it beside files")
-        return _call.report("import", options, surface=surface, files=measured, output=output)
+        yield measured
+        return
+    abscissa = {name: given[name] for name in _ABSCISSAE if given[name] is not None}
+    places = {name: given[name] for name in _PLACES}
     arrays: dict[str, Any] = {"responses": _responses(measured), **_abscissa(abscissa), **_places(places)}
     with tempfile.TemporaryDirectory(prefix="unripple-import-") as folder:
         file = Path(folder, "measured.npz")
         np.savez(file, **arrays)
-        return _call.report("import", options, surface=surface, files=[file], output=output)
+        yield [file]
 
 
 def _is_files(measured: object) -> bool:
     """Tell whether something is a path, or a list of paths."""
     if isinstance(measured, (str, os.PathLike)):
         return True
-    return isinstance(measured, (list, tuple)) and all(isinstance(item, (str, os.PathLike)) for item in measured)
+    return isinstance(measured, (list, tuple)) and all(
+        isinstance(item, (str, os.PathLike)) for item in measured
+    )
 
 
 def _responses(measured: Any) -> npt.NDArray[Any]:

@@ -109,10 +109,9 @@ class Reporting:
             optimised for the mean over both.
         window_ms
             Window in ms; by default the one that :meth:`design` recommends for evenly spread actuators.
-        restarts, seed
-            Number of random layouts from which the search is restarted, in addition to its start from the greedy layout, and their seed.
-        up_to
-            Largest number of actuators in the table of contrast against their number; by default twice `count`.
+        restarts, seed, up_to
+            Number of random layouts from which the search is restarted, in addition to its start from the greedy layout, and their seed; and
+            the largest number of actuators in the table of contrast against their number, by default twice `count`.
         method
             Methods of focusing whose drives are evaluated with the surface's own actuators and with the placed ones.
         by, evaluations
@@ -125,8 +124,7 @@ class Reporting:
         Returns
         -------
         Report
-            With the layout found as ``after``, the surface's own as ``before``, ``random`` ones, and the contrast of ``each_number`` of
-            actuators.
+            The layout found as ``after``, the surface's own as ``before``, ``random`` ones, and contrasts of ``each_number`` of actuators.
 
         Examples
         --------
