@@ -1,5 +1,6 @@
 //! Linear systems with positive definite matrices, by Cholesky factors, and with triangular matrices.
 
+use crate::all_threads;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt;
 use faer::linalg::solvers::{DenseSolveCore, Llt};
@@ -9,7 +10,7 @@ use faer::{Mat, MatMut, MatRef, Par, Side};
 /// Threads for a solve: several right-hand sides are shared among threads, a single one is solved on one
 /// thread, since its sums would be split among threads.
 pub(crate) fn shared<T>(right: &MatMut<'_, T>) -> Par {
-    if right.ncols() > 1 { Par::rayon(0) } else { Par::Seq }
+    if right.ncols() > 1 { all_threads() } else { Par::Seq }
 }
 
 /// The Cholesky factor of a positive definite n x n matrix, A = L Lᵀ.

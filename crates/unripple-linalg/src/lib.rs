@@ -30,6 +30,7 @@
 //! ```
 
 mod cholesky;
+mod chunks;
 mod eigen;
 mod eigenpairs;
 mod instances;
@@ -41,6 +42,7 @@ mod singular;
 pub mod sparse;
 
 pub use cholesky::{Cholesky, CholeskyInPlace, solve_lower, solve_lower_alone, solve_upper_alone};
+pub use chunks::{all_threads, col_chunks, row_chunks};
 pub use eigen::{exact_symmetric, general, symmetric};
 pub use eigenpairs::General;
 pub use faer::{Accum, Col, ColMut, ColRef, Mat, MatMut, MatRef, Par, RowRef, Scale, c64, mat};

@@ -1,6 +1,6 @@
 //! Products and norms of matrices.
 
-use crate::Number;
+use crate::{Number, all_threads};
 use faer::linalg::matmul::matmul_with_conj;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::sparse::SparseColMatRef;
@@ -46,7 +46,7 @@ pub fn product<T: Number>(left: MatRef<'_, T>, right: MatRef<'_, T>) -> Mat<T> {
 /// Threads for a product with `rows` rows and `columns` columns: one if it has a single row or column,
 /// since its sums would be split among threads.
 fn shared(rows: usize, columns: usize) -> Par {
-    if rows.min(columns) > 1 { Par::rayon(0) } else { Par::Seq }
+    if rows.min(columns) > 1 { all_threads() } else { Par::Seq }
 }
 
 /// The product of a matrix, m x k, and a column vector of length k, as a vector of length m, on one thread.

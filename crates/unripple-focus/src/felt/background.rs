@@ -2,7 +2,7 @@
 
 use super::lines::Lines;
 use realfft::num_complex::Complex;
-use unripple_linalg::{Accum, Mat, MatRef, Par, multiply};
+use unripple_linalg::{Accum, Mat, MatRef, all_threads, multiply};
 
 /// Number of values in memory at once while frequency lines are summed, 32 MiB of them. With twice this
 /// value, twice the memory and half the blocks, whose sums differ by rounding.
@@ -49,7 +49,7 @@ impl Actuation<'_> {
                     if i < lines { turned.re } else { turned.im }
                 });
                 let block = form.as_mut().submatrix_mut(a * splines, b * splines, splines, splines);
-                multiply(block, Accum::Replace, parts.transpose(), turned.as_ref(), 1.0, Par::rayon(0));
+                multiply(block, Accum::Replace, parts.transpose(), turned.as_ref(), 1.0, all_threads());
             }
         }
         // Exactly symmetric, whatever was rounded.
@@ -76,7 +76,7 @@ impl Actuation<'_> {
                 self.input[(at % ports, m)] * if imaginary == 0 { mode.re } else { mode.im }
             });
             let mut spread = Mat::zeros(modes, motion.ncols());
-            multiply(spread.as_mut(), Accum::Replace, products, motion.as_ref(), 1.0, Par::rayon(0));
+            multiply(spread.as_mut(), Accum::Replace, products, motion.as_ref(), 1.0, all_threads());
             let dot = |i: usize, j: usize| dot(motion.col_as_slice(i), spread.col_as_slice(j));
             for at in 0..count {
                 let (line, share) = (first + at, self.lines.share(first + at) / self.lines.rate);
@@ -115,7 +115,7 @@ impl Actuation<'_> {
             weight * if i < lines { value.re } else { value.im }
         });
         let mut motion = Mat::zeros(phases.nrows(), self.splines.len());
-        multiply(motion.as_mut(), Accum::Replace, phases.as_ref(), turned.as_ref(), 1.0, Par::rayon(0));
+        multiply(motion.as_mut(), Accum::Replace, phases.as_ref(), turned.as_ref(), 1.0, all_threads());
         motion
     }
 }

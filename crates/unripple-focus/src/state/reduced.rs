@@ -4,7 +4,7 @@ use super::modal::{lattice, ringing, steady};
 use super::room::fits;
 use crate::FocusError;
 use unripple_core::{ModalResponses, Point};
-use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product, symmetric};
+use unripple_linalg::{Accum, Mat, MatRef, all_threads, multiply, product, symmetric};
 
 /// Combinations of shapes with less than this share of the energy of the strongest, over the surface, count
 /// as zero. Larger, independent shapes would be lost; smaller, rounding would count as a shape.
@@ -58,7 +58,7 @@ impl<'r> ReducedPlant<'r> {
             let weighed =
                 Mat::from_fn(basis.nrows(), basis.ncols(), |m, i| responses.input[(a, m)] * basis[(m, i)]);
             let part = map.as_mut().subrows_mut(a * length, length);
-            multiply(part, Accum::Replace, ringing.as_ref(), weighed.as_ref(), 1.0, Par::rayon(0));
+            multiply(part, Accum::Replace, ringing.as_ref(), weighed.as_ref(), 1.0, all_threads());
         }
         Ok(Self { responses, basis, map })
     }

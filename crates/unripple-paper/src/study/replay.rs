@@ -1,7 +1,7 @@
 //! Time reversal in modal coordinates: the matrix from recorded to focused amplitudes.
 
 use unripple_core::{Pole, window_samples};
-use unripple_linalg::{Accum, Mat, MatRef, Par, Scale, c64, multiply};
+use unripple_linalg::{Accum, Mat, MatRef, Scale, all_threads, c64, multiply};
 
 /// Velocity of every mode at the focal instant after a time-reversed response is played:
 /// `I_mn = Σ_i heard_m[i] g_n[i] / rate`.
@@ -110,7 +110,7 @@ pub(super) fn rings(poles: &[Pole], rate: f64, last: usize) -> Mat<f64> {
 /// The matrix product, on all cores.
 pub(super) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut sum = Mat::zeros(a.nrows(), b.ncols());
-    multiply(sum.as_mut(), Accum::Replace, a, b, 1.0, Par::rayon(0));
+    multiply(sum.as_mut(), Accum::Replace, a, b, 1.0, all_threads());
     sum
 }
 

@@ -4,7 +4,7 @@ use super::space::Space;
 use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use unripple_core::{Point, Shapes};
-use unripple_linalg::{Mat, MatRef};
+use unripple_linalg::{Mat, MatRef, row_chunks};
 
 /// Number of modes summed at once: two cache lines of a row of coefficients. With twice this value, more zeros are added to fill the
 /// last lanes.
@@ -92,7 +92,7 @@ impl Shapes for MeshShapes {
                 }
             }
         };
-        points.par_chunks(POINTS).zip(weights.as_mut().par_row_chunks_mut(POINTS)).for_each(fill);
+        points.par_chunks(POINTS).zip(row_chunks(weights.as_mut(), POINTS)).for_each(fill);
         weights
     }
 }

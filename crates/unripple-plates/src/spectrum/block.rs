@@ -5,7 +5,7 @@ use super::pencil::Pencil;
 use super::rayleigh::quotients;
 use rayon::prelude::*;
 use std::ops::Range;
-use unripple_linalg::Mat;
+use unripple_linalg::{Mat, row_chunks};
 
 /// Eigenpairs found at one shift, in ascending order.
 #[derive(Debug, Default)]
@@ -90,11 +90,13 @@ pub(super) fn gather(pencil: &Pencil, pieces: &[EigenBlock], top: f64) -> (Vec<f
     let mut vectors = Mat::zeros(n, pairs.len());
     // Rows per task: small enough to share among threads, large enough that a task is worth starting.
     const ROWS: usize = 128;
-    vectors.as_mut().par_row_chunks_mut(ROWS).zip(rows.par_chunks(ROWS)).for_each(|(mut vectors, rows)| {
-        for (column, (_, piece, (panel, lane))) in vectors.as_mut().col_iter_mut().zip(&pairs) {
-            let panel: &[Row] = &pieces[*piece].panels[*panel];
-            column.iter_mut().zip(rows).for_each(|(x, row)| *x = panel[*row][*lane] * pencil.scale[*row]);
-        }
-    });
+    row_chunks(vectors.as_mut(), ROWS).into_par_iter().zip(rows.par_chunks(ROWS)).for_each(
+        |(mut vectors, rows)| {
+            for (column, (_, piece, (panel, lane))) in vectors.as_mut().col_iter_mut().zip(&pairs) {
+                let panel: &[Row] = &pieces[*piece].panels[*panel];
+                column.iter_mut().zip(rows).for_each(|(x, row)| *x = panel[*row][*lane] * pencil.scale[*row]);
+            }
+        },
+    );
     (pairs.iter().map(|(value, ..)| *value).collect(), vectors)
 }

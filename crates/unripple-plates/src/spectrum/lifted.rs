@@ -10,7 +10,7 @@ use super::times::symmetric_times;
 use crate::modes::eigen::product;
 use rayon::prelude::*;
 use unripple_linalg::sparse::SparseColMatRef;
-use unripple_linalg::{Mat, MatRef, Par, exact_symmetric};
+use unripple_linalg::{Mat, MatRef, Par, col_chunks, exact_symmetric};
 
 /// The work fᵀ(K - σM + 2σMXXᵀM)⁻¹f of the residual f = Kx - λMx of each of the approximate eigenpairs (λ, X), for a shift σ of `top` or
 /// slightly more. `None` if that matrix is not positive definite: the pencil then has more eigenvalues below σ than these.
@@ -61,7 +61,7 @@ pub(crate) fn lifted_works(
 /// The columns of A⁻¹F, for the factors of A.
 fn responses(pencil: &Pencil, factor: &Factor, forces: MatRef<f64>) -> Mat<f64> {
     let mut responses = Mat::zeros(forces.nrows(), forces.ncols());
-    responses.as_mut().par_col_chunks_mut(LANES).enumerate().for_each(|(chunk, mut columns)| {
+    col_chunks(responses.as_mut(), LANES).into_par_iter().enumerate().for_each(|(chunk, mut columns)| {
         let mut panel = vec![NONE; pencil.len()];
         for lane in 0..columns.ncols() {
             let force = forces.col(chunk * LANES + lane);

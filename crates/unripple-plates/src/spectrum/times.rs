@@ -4,13 +4,13 @@ use super::panel::{LANES, NONE, Row, add};
 use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use unripple_linalg::sparse::SparseColMatRef;
-use unripple_linalg::{Mat, MatRef};
+use unripple_linalg::{Mat, MatRef, col_chunks};
 
 /// The product A X of a symmetric matrix, given with both triangles, and vectors in columns: unknowns x vectors.
 pub(crate) fn symmetric_times(matrix: SparseColMatRef<usize, f64>, vectors: MatRef<f64>) -> Mat<f64> {
     let arch = Arch::new();
     let mut out = Mat::zeros(vectors.nrows(), vectors.ncols());
-    out.as_mut().par_col_chunks_mut(LANES).enumerate().for_each(|(chunk, columns)| {
+    col_chunks(out.as_mut(), LANES).into_par_iter().enumerate().for_each(|(chunk, columns)| {
         let x = panel(vectors, chunk * LANES);
         let product = times(arch, matrix, &x);
         for (lane, column) in columns.col_iter_mut().enumerate() {

@@ -7,7 +7,7 @@ use super::radial::Radial;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use unripple_core::{Point, Shapes};
-use unripple_linalg::{Mat, Par};
+use unripple_linalg::{Mat, Par, row_chunks};
 
 /// Number of points that one thread computes together. With twice this value, there are half as many tasks to share.
 const POINTS: usize = 128;
@@ -107,10 +107,12 @@ impl Shapes for Round {
 
     fn at_all(&self, points: &[Point]) -> Mat<f64> {
         let mut all = Mat::zeros(points.len(), self.modes);
-        all.as_mut().par_row_chunks_mut(POINTS).zip(points.par_chunks(POINTS)).for_each(|(rows, points)| {
-            let mut rows = rows;
-            rows.copy_from(self.block(points).transpose());
-        });
+        row_chunks(all.as_mut(), POINTS).into_par_iter().zip(points.par_chunks(POINTS)).for_each(
+            |(rows, points)| {
+                let mut rows = rows;
+                rows.copy_from(self.block(points).transpose());
+            },
+        );
         all
     }
 }

@@ -15,7 +15,7 @@ use crate::modes::bounds::Bounds;
 use crate::modes::losses;
 use rayon::prelude::*;
 use unripple_core::{Edge, Encoded, Observed};
-use unripple_linalg::{Mat, Par};
+use unripple_linalg::{Mat, Par, all_threads};
 
 /// Largest number of rounds, each with up to 1.6 times as many polynomials as the round before. More would
 /// only delay the failure if the accuracy cannot be reached.
@@ -192,7 +192,7 @@ fn solve_blocks(
     let classes = [0, 1].map(|axis| plate.lines[axis].classes(counts[axis]));
     let symmetries = Symmetry::all(&classes[0], &classes[1], plate.square);
     let top = problem.bounds.top_square();
-    let par = if symmetries.len() == 1 { Par::rayon(0) } else { Par::Seq };
+    let par = if symmetries.len() == 1 { all_threads() } else { Par::Seq };
     let large = |symmetry: Symmetry| symmetry.products().count() >= LARGE;
     let sparse = match symmetries.iter().any(|(symmetry, _)| large(*symmetry)) {
         true => Some(sparse(problem, counts, &plate.lines)?),

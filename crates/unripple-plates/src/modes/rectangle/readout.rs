@@ -6,7 +6,7 @@ use super::ritz::BlockModes;
 use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use unripple_core::Point;
-use unripple_linalg::{Accum, Mat, MatMut, MatRef, Par, multiply};
+use unripple_linalg::{Accum, Mat, MatMut, MatRef, Par, multiply, row_chunks};
 
 /// Number of points whose shapes one thread computes together; more are shared among threads. With twice this value, there are
 /// half as many tasks.
@@ -97,9 +97,8 @@ impl Readout {
         if points.len() <= POINTS {
             self.fill(points, weights.as_mut());
         } else {
-            weights
-                .as_mut()
-                .par_row_chunks_mut(POINTS)
+            row_chunks(weights.as_mut(), POINTS)
+                .into_par_iter()
                 .zip(points.par_chunks(POINTS))
                 .for_each(|(weights, points)| self.fill(points, weights));
         }

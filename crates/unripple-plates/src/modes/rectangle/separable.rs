@@ -6,7 +6,7 @@ use crate::PhysicsError;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use unripple_core::{Edge, Memory, Point};
-use unripple_linalg::Mat;
+use unripple_linalg::{Mat, col_chunks};
 
 /// Approximate number of bytes for each mode, by which a problem too large for the allowed memory is refused: mostly the values
 /// of its shape at the 256 points at which shapes are read at once. With twice this value, half as many modes are allowed.
@@ -149,7 +149,7 @@ impl Separable {
     /// Shapes at many points, points x modes.
     pub(crate) fn at_all(&self, points: &[Point]) -> Mat<f64> {
         let mut weights = Mat::zeros(self.indices.len(), points.len());
-        weights.as_mut().par_col_chunks_mut(CHUNK).zip(points.par_chunks(CHUNK)).for_each(
+        col_chunks(weights.as_mut(), CHUNK).into_par_iter().zip(points.par_chunks(CHUNK)).for_each(
             |(columns, points)| {
                 let mut row = vec![0.0; self.indices.len()];
                 for (point, column) in points.iter().zip(columns.col_iter_mut()) {
