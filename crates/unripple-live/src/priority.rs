@@ -1,6 +1,5 @@
 //! Real-time priorities of the threads, below the sound server's own.
 
-use thread_priority::{Error, ThreadPriority, ThreadPriorityValue};
 use unripple_core::Device;
 
 /// Real-time priority that is requested, of 1 to 99, where no server states that of its own threads. Above everything
@@ -64,27 +63,37 @@ pub(crate) fn at(priority: Option<u8>) -> Result<String, String> {
     let Some(priority) = priority else {
         return Ok("ordinary, as the server's own threads are".into());
     };
-    let value = ThreadPriorityValue::try_from(priority).map_err(|e| e.to_string())?;
-    match request(ThreadPriority::Crossplatform(value)) {
+    match request(priority) {
         Ok(()) => Ok(format!("{GRANTED}, {priority} of 99")),
         Err(error) => Err(format!(
-            "ordinary: real time was refused ({error:?}); a line `@audio - rtprio 95` in /etc/security/limits.d allows it"
+            "ordinary: real time was refused ({error}); a line `@audio - rtprio 95` in /etc/security/limits.d allows it"
         )),
     }
 }
 
-/// Requests a priority for this thread under the real-time policy that runs it until it waits (FIFO).
-#[cfg(unix)]
-fn request(priority: ThreadPriority) -> Result<(), Error> {
-    use thread_priority::unix::{
-        RealtimeThreadSchedulePolicy, ThreadSchedulePolicy, set_thread_priority_and_policy, thread_native_id,
+/// Requests a priority, of 1 to 99, for this thread: on Unix under the real-time policy that runs it until it waits (FIFO), on Windows among
+/// those of ordinary programs.
+#[cfg(any(unix, windows))]
+fn request(priority: u8) -> Result<(), String> {
+    use thread_priority::{ThreadPriority, ThreadPriorityValue};
+    let value = ThreadPriorityValue::try_from(priority).map_err(|error| error.to_string())?;
+    let priority = ThreadPriority::Crossplatform(value);
+    #[cfg(windows)]
+    let set = thread_priority::set_current_thread_priority(priority);
+    #[cfg(unix)]
+    let set = {
+        use thread_priority::unix::{
+            RealtimeThreadSchedulePolicy, ThreadSchedulePolicy, set_thread_priority_and_policy,
+            thread_native_id,
+        };
+        let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
+        set_thread_priority_and_policy(thread_native_id(), priority, policy)
     };
-    let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
-    set_thread_priority_and_policy(thread_native_id(), priority, policy)
+    set.map_err(|error| format!("{error:?}"))
 }
 
-/// Requests a priority for this thread among those of ordinary programs.
-#[cfg(not(unix))]
-fn request(priority: ThreadPriority) -> Result<(), Error> {
-    thread_priority::set_current_thread_priority(priority)
+/// The same where threads have no priorities.
+#[cfg(not(any(unix, windows)))]
+fn request(_priority: u8) -> Result<(), String> {
+    Err("threads have no priorities here".into())
 }

@@ -11,6 +11,7 @@ mod api;
 mod caller;
 mod closing;
 mod door;
+mod dynamic;
 mod joining;
 mod roll;
 #[cfg(unix)]

@@ -89,6 +89,7 @@ impl Connection {
     }
 
     /// The socket, which becomes readable when there is something to poll for.
+    #[cfg(unix)]
     pub(super) fn stream(&self) -> Option<&TcpStream> {
         match self.state.as_ref()? {
             State::Shaking(shaking) => Some(shaking.get_ref().get_ref().stream()),

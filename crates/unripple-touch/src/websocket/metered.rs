@@ -16,6 +16,7 @@ impl Metered {
     }
 
     /// The connection itself.
+    #[cfg(unix)]
     pub(super) fn stream(&self) -> &TcpStream {
         &self.stream
     }

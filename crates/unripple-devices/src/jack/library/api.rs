@@ -1,10 +1,10 @@
 //! The functions of the C library of JACK, as `jack/jack.h` declares them, found at run time; the library stays loaded for ever.
 
+use super::dynamic::{Error, Library};
 #[cfg(unix)]
 use super::starting;
 use super::types::{Arg, LatencyRange, RawClient, RawPort};
 use crate::DevicesError;
-use libloading::Library;
 use std::ffi::{c_char, c_int, c_uint, c_ulong, c_void};
 use std::sync::OnceLock;
 
@@ -18,7 +18,7 @@ macro_rules! functions {
         }
 
         impl Api {
-            unsafe fn find(library: &'static Library) -> Result<Self, libloading::Error> {
+            unsafe fn find(library: &'static Library) -> Result<Self, Error> {
                 // SAFETY: the types are those that jack.h declares for these names.
                 unsafe {
                     Ok(Self {

@@ -9,8 +9,8 @@
 //! Only JACK 2 is given this function: PipeWire's library does not count, and looks after its threads' priorities by functions of its own,
 //! which another creator would bypass.
 
+use super::dynamic::Library;
 use super::types::Arg;
-use libloading::Library;
 use std::ffi::{CStr, c_char, c_int};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;

@@ -4,6 +4,7 @@
 //! where such an end, which unwinds the thread by force, meets a [`catch_unwind`](std::panic::catch_unwind), the C library ends the whole
 //! program. Functions on the way are `C-unwind`, and have nothing to drop: through these a thread may end.
 
+#[cfg(unix)]
 use std::ffi::c_int;
 
 /// The state in which a thread puts off its cancellation: of Linux's C libraries, and of the others' (macOS).
