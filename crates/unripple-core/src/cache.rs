@@ -1,9 +1,10 @@
 //! A cache of results of long computations, which whoever runs them may provide.
 
+use crate::clock::Instant;
 use crate::{Encoded, scope};
 use std::cell::RefCell;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Stores results of computations under keys. Its methods are called on the threads that compute.
 pub trait Cache: Send + Sync {

@@ -1,7 +1,7 @@
 //! The real-time callback of an audio device: the buffers of one cycle, and the code called to fill them.
 
+use crate::clock::Instant;
 use std::any::Any;
-use std::time::Instant;
 
 /// The buffers of one callback cycle of a device with its own clock: outputs to be filled, and recorded inputs. All have
 /// [`Cycle::frames`] samples, a number that may differ from cycle to cycle.

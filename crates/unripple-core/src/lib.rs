@@ -29,6 +29,7 @@
 //! ```
 
 mod cache;
+pub mod clock;
 mod cost;
 mod cycle;
 mod device;
@@ -51,6 +52,7 @@ mod scope;
 mod shape;
 mod side;
 mod surface;
+pub mod threads;
 mod touch;
 mod uneven;
 

@@ -4,8 +4,8 @@ use crate::scope;
 use std::cell::RefCell;
 
 /// Memory that a computation may take where nothing else is said, in bytes: 4 GiB, which a small machine has. With half this value, some
-/// surfaces that fit would be refused.
-const USUAL: f64 = 4.0 * Memory::GIB;
+/// surfaces that fit would be refused. WebAssembly has 4 GiB of addresses in all, of which a phone's browser gives it a part: there, 1 GiB.
+const USUAL: f64 = if cfg!(target_family = "wasm") { 1.0 } else { 4.0 } * Memory::GIB;
 
 thread_local! {
     /// The memory that computations begun on this thread may take; `None` for the usual one.

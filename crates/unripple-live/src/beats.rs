@@ -6,6 +6,7 @@ use assert_no_alloc::assert_no_alloc;
 use rtrb::Producer;
 use std::sync::Arc;
 use std::thread::Thread;
+use unripple_core::clock::Instant;
 use unripple_core::{Cycle, Work};
 use unripple_player::{Meters, Player};
 
@@ -147,7 +148,7 @@ impl Beats {
 
     /// Records that the `frames` samples from `first` on begin to leave the device at the time `leaves`, and
     /// wakes the thread that waits for them, if there is one.
-    pub fn mark(&mut self, first: u64, leaves: std::time::Instant, frames: usize) {
+    pub fn mark(&mut self, first: u64, leaves: Instant, frames: usize) {
         let next = self.player.clock();
         self.timeline.mark(first, leaves, frames, next);
         if self.timeline.rings(next)
@@ -194,7 +195,6 @@ fn thread_time() -> f64 {
 #[cfg(not(unix))]
 fn thread_time() -> f64 {
     use std::sync::OnceLock;
-    use std::time::Instant;
     static FIRST: OnceLock<Instant> = OnceLock::new();
     FIRST.get_or_init(Instant::now).elapsed().as_secs_f64()
 }
@@ -202,7 +202,6 @@ fn thread_time() -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Instant;
     use unripple_player::{At, Command, Desk, Options, PreparedDrive, Voice, player};
 
     const BLOCK: usize = 64;

@@ -3,8 +3,8 @@
 use crate::{FocusDrive, FocusWorker, LiveError, Percentiles};
 use std::collections::HashMap;
 use std::sync::Arc;
-use std::time::Instant;
 use unripple_core::Point;
+use unripple_core::clock::Instant;
 use unripple_dsp::{Convolver, Threshold, Weighting, convolve};
 use unripple_effects::{Level, Wave};
 use unripple_player::PreparedDrive;

@@ -4,6 +4,7 @@ use crate::LiveError;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use unripple_calibrate::{Between, BetweenOptions};
+use unripple_core::threads;
 use unripple_core::{Drive, Point, Responses, SampledResponses};
 use unripple_field::{Aim, Field, Reach};
 use unripple_focus::{Focuser, Options, Target};
@@ -22,7 +23,7 @@ pub struct FocusDrive {
 }
 
 /// Computes drives for one state of the surface, on a thread of its own that owns the responses and what was prepared
-/// for them.
+/// for them; where there are no threads, on that of its caller.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -40,8 +41,23 @@ pub struct FocusDrive {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct FocusWorker {
-    asks: Sender<Ask>,
+pub struct FocusWorker(Maker);
+
+/// What answers requests.
+enum Maker {
+    /// A thread of its own.
+    Thread(Sender<Ask>),
+    /// The caller's thread.
+    Here(Box<dyn Fn(Work) -> Result<Answer, LiveError> + Send + Sync>),
+}
+
+impl std::fmt::Debug for Maker {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Thread(_) => "Thread",
+            Self::Here(_) => "Here",
+        })
+    }
 }
 
 /// A request to a maker's thread, and where the answer goes.
@@ -80,6 +96,9 @@ impl FocusWorker {
         options: &Options,
         before: impl Fn() + Send + 'static,
     ) -> Result<Self, LiveError> {
+        if !threads::AVAILABLE {
+            return Self::here(responses, options);
+        }
         let options = options.clone();
         Self::spawn(move |ready| {
             let focuser = match Focuser::new(&responses, &options) {
@@ -98,13 +117,31 @@ impl FocusWorker {
         })
     }
 
+    /// A worker without a thread: whoever asks computes. The method of focusing is prepared for each drive, which takes longer with those
+    /// that solve systems of equations.
+    fn here(responses: Arc<Responses>, options: &Options) -> Result<Self, LiveError> {
+        let options = options.clone();
+        // What the method does not allow is refused now.
+        Focuser::new(&responses, &options)?;
+        let answer = move |work| match work {
+            Work::Hurry(_) => Ok(Answer::Hurried),
+            Work::Focus(points) => {
+                focus(&Focuser::new(&responses, &options)?, points).map(Answer::FocusDrive)
+            }
+            Work::Trace(made) => trace(&responses, &made).map(Answer::Trace),
+            Work::Reach(made) => reach(&responses, &made).map(Answer::Reach),
+        };
+        Ok(Self(Maker::Here(Box::new(answer))))
+    }
+
     /// A worker for responses measured at points, which focuses at any place between them. [`Between`]
     /// interpolates the responses there, with the wavenumbers of `medium`. For each focus the method has
     /// responses at the points of the focus only. So only time reversal and its variants are useful; methods
     /// that minimise motion elsewhere on the surface are not.
     ///
     /// # Errors
-    /// [`LiveError::Calibrate`] for a library without points, and those of [`FocusWorker::new`].
+    /// [`LiveError::Calibrate`] for a library without points, and those of [`FocusWorker::new`]; [`LiveError::Gone`] where there are no
+    /// threads.
     pub fn between(
         stored: Arc<SampledResponses>,
         medium: Medium,
@@ -132,18 +169,24 @@ impl FocusWorker {
 
     /// Starts a thread that prepares first, and then answers requests.
     fn spawn(work: impl FnOnce(Ready) + Send + 'static) -> Result<Self, LiveError> {
+        if !threads::AVAILABLE {
+            return Err(LiveError::Gone { why: "there are no threads here".into() });
+        }
         let (asks, asked) = channel();
         let (planned, ready) = channel();
-        let thread = std::thread::Builder::new().name("focus".into());
-        let spawned = thread.spawn(move || work(Ready { planned, asked }));
+        let spawned = threads::start("focus", move || work(Ready { planned, asked }));
         spawned.map_err(|error| LiveError::Gone { why: error.to_string() })?;
         ready.recv().map_err(|_| gone())??;
-        Ok(Self { asks })
+        Ok(Self(Maker::Thread(asks)))
     }
 
     fn ask(&self, work: Work) -> Result<Answer, LiveError> {
+        let asks = match &self.0 {
+            Maker::Thread(asks) => asks,
+            Maker::Here(answer) => return answer(work),
+        };
         let (reply, answer) = channel();
-        self.asks.send(Ask { work, reply }).map_err(|_| gone())?;
+        asks.send(Ask { work, reply }).map_err(|_| gone())?;
         answer.recv().map_err(|_| gone())?
     }
 
@@ -248,4 +291,27 @@ fn trace(responses: &Responses, made: &FocusDrive) -> Result<Vec<f64>, LiveError
     let taken = (3 * made.instant).min(field.known().saturating_sub(1));
     let traces = field.traces(&[*first], taken as f64 / drive.rate())?;
     Ok(traces.into_iter().next().map_or_else(Vec::new, |trace| trace.displacement))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use unripple_physics::design::papers_surface;
+    use unripple_physics::{ResponseOptions, responses};
+
+    #[test]
+    fn a_worker_makes_the_same_drives_with_and_without_a_thread() {
+        let mut film = papers_surface();
+        film.emission.band[1] = 300.0;
+        let known = Arc::new(responses(&film, &ResponseOptions::default()).unwrap());
+        let workers = [FocusWorker::new, FocusWorker::here]
+            .map(|make| make(known.clone(), &Options::default()).unwrap());
+        let places = [Point::from_mm(62.0, 90.0), Point::from_mm(30.0, 40.0)];
+        let [there, here] = workers.each_ref().map(|worker| worker.focus(&places).unwrap());
+        assert_eq!((there.drive.channels(), there.instant), (here.drive.channels(), here.instant));
+        let traces = workers.each_ref().map(|worker| worker.trace(&here).unwrap());
+        assert!(traces[0] == traces[1] && traces[0].iter().any(|x| *x != 0.0));
+        let refused = Options { window: -1.0, ..Options::default() };
+        assert!(FocusWorker::here(known, &refused).is_err());
+    }
 }

@@ -4,7 +4,8 @@ use crate::beats::Beats;
 use crate::{Percentiles, Timeline};
 use std::sync::Arc;
 use std::thread::Thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use unripple_core::clock::Instant;
 use unripple_core::{Device, DeviceError, Work};
 use unripple_player::Player;
 

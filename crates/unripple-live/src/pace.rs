@@ -1,6 +1,7 @@
 //! Whether the player's clock moves.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use unripple_core::clock::Instant;
 
 /// A clock that has not moved for so long stands still, unless it moves by more at a time.
 const STILL: Duration = Duration::from_millis(100);

@@ -1,6 +1,7 @@
 //! A device that is reopened when it is lost.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use unripple_core::clock::Instant;
 use unripple_core::{Cycle, Device, DeviceError, Layout, Server, State, Status, Work};
 
 /// Function that opens the device, at first and after each loss; the error says in words why it cannot.

@@ -3,8 +3,8 @@
 use crate::pinging::Pinging;
 use crate::touch_input::TouchBatch;
 use crate::{Conductor, Follower, LiveError, Percentiles};
-use std::time::Instant;
 use unripple_calibrate::Drift;
+use unripple_core::clock::Instant;
 use unripple_core::{Phase, Point, Touch};
 use unripple_devices::{Feeler, Feeling};
 use unripple_touch::{Counts, Heard};

@@ -8,8 +8,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::TryRecvError;
 use std::sync::{Mutex, mpsc};
 use std::thread::Thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use unripple_calibrate::Drift;
+use unripple_core::clock::Instant;
 use unripple_core::{DeviceError, State};
 
 /// Interval at which the conductor runs while anything sounds or waits, in s of the device's clock. Twice as long

@@ -3,8 +3,8 @@
 use crate::voice_state::{SustainedSound, VoiceState};
 use crate::{Conductor, LiveError};
 use std::sync::Arc;
-use std::time::Instant;
 use unripple_core::Point;
+use unripple_core::clock::Instant;
 use unripple_effects::Level;
 use unripple_player::{At, Command, Hold, PreparedDrive, PreparedFilters, Voice};
 

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Condvar, LazyLock, Mutex, PoisonError};
 use std::time::Duration;
+use unripple::core::threads::{self, Started};
 use unripple::core::{Cached, Observed, Observer};
 
 /// Interval at which the caller checks for a cancellation: a tenth of the 0.2 s after which people take a program for stuck.
@@ -15,7 +16,7 @@ const LOOK: Duration = Duration::from_millis(20);
 /// cores until its longest uninterruptible call is over.
 static TASKS: LazyLock<Lane> = LazyLock::new(|| Lane::new(0));
 
-/// Runs tasks, each on its own thread. A cancelled task runs on until it next checks for a cancellation; a
+/// Runs tasks, each on its own thread; where there are no threads, in place, so that none is cancelled. A cancelled task runs on until it next checks for a cancellation; a
 /// new task begins as soon as no more than `beside` cancelled ones still run.
 #[derive(Clone, Debug)]
 pub struct Lane {
@@ -134,7 +135,7 @@ impl Lane {
             // Whoever cancelled it is not informed of how it ended.
             let _ = relay.to.send(Said::Over(over));
         };
-        let thread = std::thread::Builder::new().name("task".into()).spawn(work).map_err(TaskError::work)?;
+        let thread = threads::start("task", work).map_err(TaskError::work)?;
         match follow(&from, &shared, progress) {
             Some(result) => result,
             None => {
@@ -145,7 +146,7 @@ impl Lane {
     }
 
     /// Waits in the background until a cancelled task has ended.
-    fn give_up(&self, thread: std::thread::JoinHandle<()>) {
+    fn give_up(&self, thread: Started) {
         self.count(|running| running + 1);
         let lane = self.clone();
         let wait = move || {
@@ -153,7 +154,7 @@ impl Lane {
             let _ = thread.join();
             lane.count(|running| running - 1);
         };
-        if std::thread::Builder::new().name("given up".into()).spawn(wait).is_err() {
+        if threads::start("given up", wait).is_err() {
             self.count(|running| running - 1);
         }
     }
@@ -228,7 +229,7 @@ fn follow<R>(
 ) -> Option<Result<R, TaskError>> {
     let mut stage = String::new();
     loop {
-        match from.recv_timeout(LOOK) {
+        match threads::receive(from, LOOK) {
             Ok(Said::Stage(what)) => {
                 progress.stage(&what);
                 stage = what;

@@ -1,7 +1,8 @@
 //! Progress of tasks as lines, for logs and wherever no bar can be drawn.
 
 use crate::part_of;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use unripple::core::clock::Instant;
 
 /// Time after which a task's stages are reported if there is no terminal: shorter tasks end before a line is read.
 const LONG: Duration = Duration::from_secs(2);

@@ -3,8 +3,8 @@
 use std::env;
 use std::hint::black_box;
 use std::sync::OnceLock;
-use std::time::Instant;
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
+use unripple::core::clock::Instant;
 use unripple::core::{Cost, Memory};
 use unripple::linalg::{Accum, Mat, Par, multiply};
 use unripple::physics::PhysicsError;

@@ -6,8 +6,9 @@ use rtrb::{Consumer, Producer, RingBuffer};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::Thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use unripple_core::Work;
+use unripple_core::clock::Instant;
 
 /// How long a freewheeling server waits for drive before it continues without. If much longer, a program
 /// that ended without closing would block the server; if much shorter, a busy machine would lose blocks.

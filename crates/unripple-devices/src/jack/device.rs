@@ -8,7 +8,8 @@ use super::wires::{OWN, wires};
 use crate::DevicesError;
 use std::sync::atomic::Ordering;
 use std::thread::ThreadId;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use unripple_core::clock::Instant;
 use unripple_core::{CHECK_INTERVAL, Device, DeviceError, Layout, Server, State, Status, Work, require};
 
 /// Smallest number of frames for which the ring buffers have room, in case the server's period grows: four

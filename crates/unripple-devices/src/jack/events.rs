@@ -1,7 +1,8 @@
 //! Events that the server reports to a client, kept in atomics.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use unripple_core::clock::Instant;
 
 /// Number of cycles after which a change has taken effect: one may be under way already, and one begins the
 /// change.

@@ -28,14 +28,14 @@ use joining::join;
 use std::ffi::{CStr, CString, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::time::{Duration, Instant};
+use std::sync::{Arc, atomic::AtomicU32, atomic::Ordering};
+use std::time::Duration;
 use types::{
     Arg, CAPTURE_LATENCY, LatencyRange, NO_START_SERVER, PLAYBACK_LATENCY, PORT_IS_INPUT, PORT_IS_OUTPUT,
     PORT_IS_PHYSICAL, RawClient, RawPort, SERVER_NAME,
 };
 use uncancelled::uncancelled;
+use unripple_core::clock::Instant;
 
 /// What `jack_connect` returns for a connection that is there already: `EEXIST`.
 const EXISTS: c_int = 17;

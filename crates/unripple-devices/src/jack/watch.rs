@@ -1,6 +1,7 @@
 //! Check whether a server still calls its client in its cycles.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use unripple_core::clock::Instant;
 
 /// Number of successive checks that find the server running and the client not called, after which the
 /// client counts as left out: the first check after a server had stopped may come just before it calls.

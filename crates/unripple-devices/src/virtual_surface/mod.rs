@@ -12,7 +12,8 @@ use crate::bandwidth::top;
 use crate::interface::Converter;
 use crate::{DevicesError, Interface, Truth};
 use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use unripple_core::clock::Instant;
 use unripple_core::{Device, DeviceError, Layout, PROBE, Point, State, Status, Surface, require};
 use unripple_physics::stepper::{
     Channel, FaultySurface, InjectedFaults, Plant, Reading, StepperOptions, VirtualSurface,

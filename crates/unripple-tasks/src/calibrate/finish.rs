@@ -6,7 +6,7 @@ use super::filler::LibraryFiller;
 use super::verify;
 use crate::{Record, TaskError, own};
 use serde_json::{Value, json};
-use std::time::{SystemTime, UNIX_EPOCH};
+use unripple::core::clock;
 use unripple_devices::reciprocal;
 use unripple_store::{Doubt, Library, PointState, date};
 
@@ -83,7 +83,7 @@ pub fn log_run(
     measured: usize,
     seconds: f64,
 ) -> Result<(), TaskError> {
-    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let now = clock::unix_seconds();
     let settings = &campaign.settings;
     let run = json!({
         "ended": date(now),

@@ -13,7 +13,7 @@ use super::{By, Hands, Report, before, figure, levels, report};
 use crate::{TaskError, go_on};
 use serde_json::Value;
 use std::ops::ControlFlow;
-use std::time::Instant;
+use unripple::core::clock::Instant;
 use unripple::core::{Layout, Point};
 use unripple_calibrate::measure::{
     Listen, MeasureOptions, Progress, Rig, Session, Sink, Way, Wires, campaign,

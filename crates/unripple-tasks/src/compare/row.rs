@@ -4,8 +4,8 @@ use super::ground::Ground;
 use super::trade::{Trade, traded};
 use crate::TaskError;
 use serde::Serialize;
-use std::time::Instant;
 use unripple::act::{Act, Note, Sound, Strength, power};
+use unripple::core::clock::Instant;
 use unripple::field::{DriveFigures, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
 

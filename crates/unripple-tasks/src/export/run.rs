@@ -2,7 +2,7 @@
 
 use super::{Ask, Format, Report, foreign};
 use crate::{Progress, TaskError, go_on, source};
-use std::time::{SystemTime, UNIX_EPOCH};
+use unripple::core::clock;
 use unripple_store::{Library, PointState, SofaAbout};
 
 /// Writes a library as WAV files, or as one SOFA, universal or MATLAB file.
@@ -86,6 +86,6 @@ fn about(ask: &Ask) -> SofaAbout {
         author: ask.author.clone(),
         organization: ask.organization.clone(),
         license: ask.license.clone(),
-        created: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
+        created: clock::unix_seconds(),
     }
 }

@@ -5,7 +5,7 @@ use super::{Ask, Report, fill, probed::Probed, report};
 use crate::numbers::accuracy;
 use crate::{Progress, Record, TaskError, go_on, grid, source};
 use std::path::Path;
-use std::time::Instant;
+use unripple::core::clock::Instant;
 use unripple::core::{Point, Surface};
 use unripple_calibrate::{FitOptions, Fitted, Verdict};
 use unripple_store::{Library, StoreError};

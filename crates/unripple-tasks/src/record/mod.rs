@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::time::{SystemTime, UNIX_EPOCH};
+use unripple::core::clock;
 use unripple_store::{Library, OutputDir, date, to_toml};
 
 pub use hash::{of_bytes, of_path};
@@ -250,7 +250,7 @@ pub fn asked<A: Request>(ask: Value) -> Result<A, TaskError> {
 
 /// Date and time of day now, UTC, as ISO 8601 writes them: `2026-03-14T09:26:53Z`.
 pub fn now() -> String {
-    let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let seconds = clock::unix_seconds();
     format!("{}Z", date(seconds).replace(' ', "T"))
 }
 

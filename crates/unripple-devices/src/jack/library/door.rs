@@ -5,7 +5,8 @@ use super::caller::Caller;
 use crate::DevicesError;
 use std::ffi::c_int;
 use std::sync::{Mutex, MutexGuard, Once, PoisonError, TryLockError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use unripple_core::clock::Instant;
 
 /// How long this program waits for a client that leaves, and a joining client for the lock: a running server
 /// takes a few cycles.

@@ -7,7 +7,8 @@ use super::roll;
 use super::types::RawClient;
 use crate::DevicesError;
 use std::sync::mpsc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use unripple_core::clock::Instant;
 
 /// Longest wait for the library to join: a running server answers within some cycles, one on a loaded
 /// machine within a second.

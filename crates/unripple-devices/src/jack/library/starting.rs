@@ -111,7 +111,8 @@ fn taken(start: *mut Start) -> (Routine, Arg) {
 mod tests {
     use super::*;
     use std::sync::atomic::{AtomicBool, Ordering};
-    use std::time::{Duration, Instant};
+    use std::time::Duration;
+    use unripple_core::clock::Instant;
 
     unsafe extern "C-unwind" fn note(arg: Arg) -> Arg {
         // SAFETY: the tests give a place that outlives the thread.
