@@ -25,9 +25,10 @@ const FLOORS: &[(&str, i8)] = &[
     ("unripple-live", 4),
     ("unripple-tasks", 5),
     ("unripple-paper", 6),
-    ("unripple-viewer", 6),
-    ("unripple-cli", 7),
-    ("unripple-python", 8),
+    ("unripple-session", 6),
+    ("unripple-viewer", 7),
+    ("unripple-cli", 8),
+    ("unripple-python", 9),
 ];
 
 fn floor(name: &str) -> Option<i8> {

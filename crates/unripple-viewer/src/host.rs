@@ -1,21 +1,16 @@
 //! Threads that run the session and the computations beside it, and the notices that links send to pages.
 
-use crate::compute::Task;
 use crate::jobs::Jobs;
-use crate::lock::lock;
-use crate::messages::Settled;
 use crate::notices::{Notice, Notices};
-use crate::outbox::{Measured, Out};
-use crate::session::{Done, Errand, Session};
-use crate::simulation::{Instrument, Spec};
-use crate::stop::Stop;
-use crate::wire::Command;
 use crate::{View, ViewError};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
+use unripple_session::{
+    Command, Done, Errand, Instrument, Measured, Out, Session, Settled, Spec, Stop, Task, lock,
+};
 use unripple_tasks::{Lane, Silent};
 
 /// Pictures per second: as many as most screens show smoothly. Each costs a product of matrices.

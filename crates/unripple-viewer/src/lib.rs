@@ -8,12 +8,10 @@
 //! A [`View`] says what is shown and who may connect. [`View::open`] builds the surface and listens; [`Viewer::serve`] serves pages until
 //! told to stop. A [`Command`] is what a page sends, a [`Draft`] the surface that pages edit, and [`task`] is all of this as a task.
 //!
-//! Inside, `wire` is the protocol of pages. `door` accepts connections, `lobby` limits their number; `server` answers requests that `guard` allows,
-//! `framing` says which other pages may show this one, and `link` serves a page's WebSocket. `host` runs the `session`, a state machine: it takes the pages' commands and the time that passes,
-//! and gives messages and pictures. The session consists of the `simulation`, which plays the surface, and the `editor`, which changes it;
-//! `compute` does beside it what takes longer than a picture may wait, unless a `stop` gives it up. Results leave through the `outbox` to
-//! the `notices`, from which each page takes those that it has not seen, as fast as it can. `jobs` are long tasks, such as a calibration
-//! or the doctor.
+//! Inside, `door` accepts connections, `lobby` limits their number; `server` answers requests that `guard` allows, `framing` says which
+//! other pages may show this one, and `link` serves a page's WebSocket. `host` runs the [`Session`](unripple_session::Session), a state
+//! machine that takes the pages' commands and the time that passes, and gives messages and pictures. These go to the `notices`, from which
+//! each page takes those that it has not seen, as fast as it can. `jobs` are long tasks, such as a calibration or the doctor.
 //!
 //! ```
 //! use std::time::Duration;
@@ -36,41 +34,27 @@
 //! ```
 
 mod assets;
-mod compute;
 mod door;
-mod draft;
-mod edition;
-mod editor;
-mod error;
 mod framing;
 mod guard;
 mod host;
 mod jobs;
 mod link;
 mod lobby;
-mod lock;
-mod messages;
 mod notices;
-mod outbox;
 mod server;
-mod session;
-mod simulation;
-mod spectrum;
-mod stop;
 pub mod task;
 mod view;
 mod viewer;
-mod wire;
 
-pub use compute::Responder;
-pub use draft::Draft;
-pub use error::ViewError;
 pub use framing::Origin;
-pub use simulation::Follow;
+pub use unripple_session::{
+    Command, Draft, Edit, Follow, Job, Measure, Phase, Probe, Refused, Responder, Settings, Transport,
+    ViewError,
+};
 pub use unripple_tasks::play::Opener;
 pub use view::View;
 pub use viewer::Viewer;
-pub use wire::{Command, Edit, Job, Measure, Phase, Probe, Refused, Settings, Transport};
 
 /// Waits for a duration, by the machine's clock: a future that can be passed to [`Viewer::serve`].
 pub async fn pause(time: std::time::Duration) {

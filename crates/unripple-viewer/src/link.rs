@@ -2,8 +2,6 @@
 
 use crate::host::SessionHost;
 use crate::notices::Notice;
-use crate::outbox::Picture;
-use crate::wire::{Command, LONGEST, Phase};
 use axum::body::Bytes;
 use axum::extract::ws::{Message, Utf8Bytes, WebSocket};
 use std::sync::Arc;
@@ -11,6 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use tokio::sync::mpsc::{Receiver, channel};
 use tokio::time::{Instant, MissedTickBehavior, timeout};
+use unripple_session::{Command, LONGEST, Phase, Picture};
 
 /// Number of frames that may be sent before the page says that it has drawn them. With one a distant page draws one frame for each round
 /// trip; with many it lags behind by as many.

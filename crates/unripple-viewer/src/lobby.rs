@@ -1,10 +1,10 @@
 //! The connections, and which are closed when there are too many.
 
-use crate::lock::lock;
 use std::collections::BTreeMap;
 use std::net::{IpAddr, Ipv6Addr};
 use std::sync::{Arc, Mutex};
 use tokio::sync::Notify;
+use unripple_session::lock;
 
 /// Largest number of connections that have not been admitted yet, in all and from one address: a browser opens six, and several may sit
 /// behind one address.

@@ -1,12 +1,11 @@
 //! Messages and pictures for all pages, from which each takes those that it has not seen.
 
-use crate::lock::lock;
-use crate::outbox::Picture;
 use axum::body::Bytes;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use tokio::sync::watch;
+use unripple_session::{Picture, lock};
 
 /// A message or picture for all pages.
 #[derive(Clone, Debug)]

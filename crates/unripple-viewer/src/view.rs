@@ -1,18 +1,13 @@
 //! Options of the viewer, and the instrument that they specify.
 
-use crate::compute::Responder;
 use crate::framing::Origin;
-use crate::simulation::{Follow, PULSES, RealDevice, Spec};
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
 use unripple::core::{SampledResponses, Surface};
 use unripple::focus::Method;
+use unripple_session::{Follow, RealDevice, Responder, Spec};
 use unripple_tasks::play::Opener;
-
-/// Pulses a second under a resting finger, at first. Apart enough to be felt one by one, and often enough to be found
-/// at once.
-const RATE: f64 = 10.0;
 
 /// Options of the viewer: the surface to show, how it is played, and who may connect.
 pub struct View {
@@ -51,16 +46,12 @@ impl View {
     /// Specification of the instrument to begin with.
     pub(crate) fn spec(&self) -> Spec {
         Spec {
-            surface: self.surface.clone(),
             stored: self.stored.clone(),
             without_scale: self.without_scale.is_some(),
             method: self.method,
-            effect: PULSES.into(),
-            window: None,
-            rate: RATE,
-            load: false,
             device: self.device.clone().map(RealDevice::new),
             follow: self.follow.clone(),
+            ..Spec::simulated(self.surface.clone())
         }
     }
 }

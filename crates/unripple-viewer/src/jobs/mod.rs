@@ -3,14 +3,13 @@
 mod quality;
 mod running;
 
-use crate::lock::lock;
 use crate::notices::Notices;
-use crate::wire::Job;
 use running::{Running, Work};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+use unripple_session::{Job, lock};
 use unripple_tasks::{DeviceAsk, SurfaceAsk, calibrate, devices, doctor};
 
 /// Largest number of jobs at once: one that measures, and one that looks.

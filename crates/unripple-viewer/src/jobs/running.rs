@@ -1,7 +1,6 @@
 //! A long task that runs beside the session, and the messages on its progress to pages.
 
 use super::quality::Quality;
-use crate::lock::lock;
 use crate::notices::Notices;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
@@ -11,6 +10,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use unripple::core::Cache;
+use unripple_session::lock;
 use unripple_tasks::{Progress, Report, TaskError, apart, calibrate, devices, doctor};
 
 /// Number of lines that are shown, and longest length of each: as many as a panel shows.

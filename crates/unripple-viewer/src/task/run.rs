@@ -1,13 +1,12 @@
 //! Opens a surface with its device, and shows it until the task is cancelled.
 
 use super::{Ask, Report};
-use crate::compute::Responder;
-use crate::simulation::Follow;
 use crate::{Origin, View, ViewError, Viewer, pause};
 use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use unripple_calibrate::Interpolation;
+use unripple_session::{Follow, Responder};
 use unripple_tasks::play::{Opener, follower, latency, opener};
 use unripple_tasks::{Progress, Source, SurfaceAsk, TaskError, apart, go_on, judge, source};
 
@@ -19,20 +18,6 @@ const LENGTHS: std::ops::RangeInclusive<usize> = 8..=64;
 
 /// Interval at which it is checked whether the task has been cancelled: too short to be noticed.
 const LOOKED: Duration = Duration::from_millis(100);
-
-impl From<ViewError> for TaskError {
-    fn from(error: ViewError) -> Self {
-        match error {
-            ViewError::Store(error) => error.into(),
-            ViewError::Live(error) => error.into(),
-            ViewError::Stopped => Self::Cancelled,
-            error @ (ViewError::Address { .. } | ViewError::Gone { .. } | ViewError::Device { .. }) => {
-                Self::work(error)
-            }
-            error => Self::input(error),
-        }
-    }
-}
 
 /// Shows a surface until the task is cancelled or the requested time is over. `opened` is called with the
 /// page's addresses as soon as a page can be opened. A task that is cancelled before that returns within 0.2

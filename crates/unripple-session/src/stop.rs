@@ -3,8 +3,9 @@
 use crate::ViewError;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use unripple::core::Cache;
+use unripple::core::clock::Instant;
 use unripple_tasks::Progress;
 
 /// How long work may take in all once newer work waits. Most surfaces are computed in that time, so that

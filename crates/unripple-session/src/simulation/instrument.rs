@@ -40,6 +40,10 @@ const BLOCK: usize = 64;
 /// Duration of the past states that are stored, in s. Longer than waves ring on the paper's film.
 const REMEMBERED: f64 = 1.0;
 
+/// Pulses a second under a resting finger, at first. Apart enough to be felt one by one, and often enough to be found
+/// at once.
+const RATE: f64 = 10.0;
+
 /// Name of the default effect: pulses at the finger while it rests.
 pub const PULSES: &str = "pulses";
 
@@ -71,6 +75,24 @@ pub struct Spec {
     pub device: Option<RealDevice>,
     /// Function that makes the follower of the sheet's tension, if it is to be followed.
     pub follow: Option<Follow>,
+}
+
+impl Spec {
+    /// A surface that is simulated, with computed responses, as it is played at first.
+    pub fn simulated(surface: Surface) -> Self {
+        Self {
+            surface,
+            stored: None,
+            without_scale: false,
+            method: Method::default(),
+            effect: PULSES.into(),
+            window: None,
+            rate: RATE,
+            load: false,
+            device: None,
+            follow: None,
+        }
+    }
 }
 
 /// A surface that is ready to be played and shown.

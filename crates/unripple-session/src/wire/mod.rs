@@ -3,6 +3,6 @@
 mod command;
 mod frame;
 
-pub(crate) use command::LONGEST;
+pub use command::LONGEST;
 pub use command::{Command, Edit, Job, Measure, Phase, Probe, Refused, Settings, Transport};
 pub use frame::{Frame, Head, Resting, Strip};

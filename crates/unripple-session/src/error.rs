@@ -1,6 +1,7 @@
 //! Errors of the viewer.
 
 use unripple_store::StoreError;
+use unripple_tasks::TaskError;
 
 /// Errors that keep a surface from being shown.
 #[derive(Debug, thiserror::Error)]
@@ -56,6 +57,20 @@ pub enum ViewError {
         /// Reason that the device gave.
         why: String,
     },
+}
+
+impl From<ViewError> for TaskError {
+    fn from(error: ViewError) -> Self {
+        match error {
+            ViewError::Store(error) => error.into(),
+            ViewError::Live(error) => error.into(),
+            ViewError::Stopped => Self::Cancelled,
+            error @ (ViewError::Address { .. } | ViewError::Gone { .. } | ViewError::Device { .. }) => {
+                Self::work(error)
+            }
+            error => Self::input(error),
+        }
+    }
 }
 
 /// All faults of a file, a line each.

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use unripple::physics::design::papers_surface;
+use unripple_session::{Command, Draft, Edit};
 use unripple_store::{parse_surface, to_toml};
-use unripple_viewer::{Command, Draft, Edit};
 
 /// Messages that are right, to be bent.
 const RIGHT: [&str; 10] = [

@@ -20,13 +20,13 @@ const MOST: usize = 200;
 /// A surface that is edited, with its earlier states for undo and redo.
 ///
 /// ```
-/// use unripple_viewer::{Draft, Edit};
+/// use unripple_session::{Draft, Edit};
 ///
 /// let mut draft = Draft::new(unripple::physics::design::papers_surface());
 /// draft.edit(&Edit { actuator: Some(0), at_mm: Some([30.0, 40.0]), ..Edit::default() })?;
 /// assert!((draft.surface().actuators[0].at.x - 0.03).abs() < 1e-12);
 /// assert!(draft.undo());
-/// # Ok::<(), unripple_viewer::ViewError>(())
+/// # Ok::<(), unripple_session::ViewError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Draft {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Deserializer};
 
 /// Bytes of the longest message that is read. A surface edit has a few hundred bytes; what is longer is refused.
-pub(crate) const LONGEST: usize = 64 << 10;
+pub const LONGEST: usize = 64 << 10;
 
 /// Places in one message: more targets than anybody presses at once.
 const MOST_PLACES: usize = 16;
@@ -17,7 +17,7 @@ const LONGEST_NAME: usize = 64;
 /// A command that a page sends. Lengths in mm, times in ms where the key says so, else in s.
 ///
 /// ```
-/// use unripple_viewer::Command;
+/// use unripple_session::Command;
 ///
 /// let press = r#"{"do":"touch","finger":0,"phase":"down","at_mm":[62,90]}"#;
 /// assert!(matches!(Command::read(press), Ok(Command::Touch { finger: 0, .. })));
