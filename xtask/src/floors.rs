@@ -27,6 +27,7 @@ const FLOORS: &[(&str, i8)] = &[
     ("unripple-paper", 6),
     ("unripple-session", 6),
     ("unripple-viewer", 7),
+    ("unripple-web", 7),
     ("unripple-cli", 8),
     ("unripple-python", 9),
 ];
