@@ -9,7 +9,8 @@ import { announce, copy, toast } from './faults.js';
 import { parseFrame } from './frame.js';
 import { mount as mountJobs } from './jobs.js';
 import { mount as mountKeys } from './keys.js';
-import { Link, token } from './link.js';
+import { line } from './line.js';
+import { Link } from './link.js';
 import { mount as mountMeasured } from './measured.js';
 import { mount as mountReadout, mountFoot } from './readout.js';
 import { Recall } from './recall.js';
@@ -36,7 +37,7 @@ const about = (message) => (ABOUT.has(message.do) ? { ...message, edit: state.la
 
 const app = {
   state,
-  token,
+  line,
   toast,
   announce,
   copy,

@@ -61,6 +61,6 @@ export function mount(root, app, stage) {
     });
   });
   root.append(el('h2', { text: 'Files' }), el('div', { class: 'row' },
-    el('a', { class: 'button small', href: app.token('/surface.toml'), download: 'surface.toml', text: 'surface.toml' })),
+    el('a', { class: 'button small', href: app.line.address('/surface.toml'), download: 'surface.toml', text: 'surface.toml' })),
   el('p', { class: 'quiet', text: 'The drive and the report of the last measurement are under Measure.' }));
 }

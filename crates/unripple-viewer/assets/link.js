@@ -1,17 +1,10 @@
-// The connection to the server. It comes back by itself: after a loss, a silence of three seconds, a sleep, a network change.
+// The connection to the session. It comes back by itself: after a loss, a silence of three seconds, a sleep, a network change.
 
-const SILENCE_MS = 3000;
+import { line } from './line.js';
+
 const LOOK_MS = 500;
 const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 4000;
-
-const words = new URLSearchParams(location.search).get('token');
-
-/** Adds the page's token to an address of this server. */
-export function token(url) {
-  if (!words) return url;
-  return `${url}${url.includes('?') ? '&' : '?'}token=${encodeURIComponent(words)}`;
-}
 
 /** A link that calls `on.text(message)`, `on.frame(buffer)`, `on.change({open, text})` and `on.refused()`. */
 export class Link {
@@ -57,14 +50,12 @@ export class Link {
     clearTimeout(this.#waiting);
     this.#waiting = null;
     this.#drop();
-    const scheme = location.protocol === 'https:' ? 'wss:' : 'ws:';
-    const socket = new WebSocket(token(`${scheme}//${location.host}/link`));
-    socket.binaryType = 'arraybuffer';
+    const socket = line.connect();
     this.#socket = socket;
     this.#hear();
     socket.onopen = () => {
       this.#hear();
-      this.#on.change({ open: true, text: 'Connected' });
+      this.#on.change({ open: true, text: line.connected });
     };
     socket.onmessage = (event) => this.#receive(event.data);
     socket.onclose = () => this.#lost('Connection lost');
@@ -100,13 +91,13 @@ export class Link {
     const now = performance.now();
     this.#silence += Math.min(now - this.#looked, 2 * LOOK_MS);
     this.#looked = now;
-    if (this.#socket && this.#silence > SILENCE_MS) this.#lost('No answer for 3 s');
+    if (this.#socket && this.#silence > line.silence_ms) this.#lost('No answer for 3 s');
   }
 
   #wake() {
     this.#tries = 0;
     const coming = this.#socket?.readyState === WebSocket.CONNECTING;
-    const stale = performance.now() - this.#heard > SILENCE_MS;
+    const stale = performance.now() - this.#heard > line.silence_ms;
     if (stale || !(this.open || coming)) this.connect();
   }
 

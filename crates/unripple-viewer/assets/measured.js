@@ -144,7 +144,7 @@ export function mount(root, app) {
     found.hidden = false;
     of = message.edit ?? null;
     compared();
-    for (const file of files) file.href = app.token(`/${file.download}?id=${message.id}`);
+    for (const file of files) file.href = app.line.address(`/${file.download}?id=${message.id}`);
     table.replaceChildren(figures(message.report ?? {}));
     setText(code, message.command ?? '');
     notes.replaceChildren(...(message.report?.notes ?? []).map((note) => el('li', { text: `${note.topic}: ${note.text}` })));

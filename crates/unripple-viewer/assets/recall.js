@@ -1,7 +1,7 @@
 // The surface a person made must not be lost when the server starts afresh: the last one is kept in this tab of the browser.
 
 import { store } from './state.js';
-import { token } from './link.js';
+import { line } from './line.js';
 import { toast } from './faults.js';
 
 const KEY = 'unripple.surface';
@@ -19,7 +19,7 @@ export function changedHere() {
 /** Sends a surface file to the server. */
 export async function putSurface(toml) {
   changedHere();
-  const answer = await fetch(token('/surface'), { method: 'POST', body: toml, headers: { 'content-type': 'application/toml' } });
+  const answer = await line.ask('/surface', { method: 'POST', body: toml, headers: { 'content-type': 'application/toml' } });
   if (answer.ok) {
     changedHere();
     return;

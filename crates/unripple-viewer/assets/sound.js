@@ -88,8 +88,8 @@ class Player {
   }
 
   /** Plays a file's channels, mixed. */
-  async file(url) {
-    const answer = await fetch(url);
+  async file(asked) {
+    const answer = await asked;
     if (!answer.ok) throw new Error('There is no measured drive yet: measure first.');
     const decoded = await this.context.decodeAudioData(await answer.arrayBuffer());
     const mixed = new Float32Array(decoded.length);
@@ -172,7 +172,7 @@ export function mount(root, app) {
     try {
       await ready();
       turn();
-      await player.file(app.token('/drive.wav'));
+      await player.file(app.line.ask('/drive.wav'));
     } catch (error) {
       app.toast(error.message, 'fault');
     }

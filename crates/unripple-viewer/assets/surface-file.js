@@ -20,7 +20,7 @@ export class SurfaceFile {
     this.undoButton = el('button', { type: 'button', class: 'button', title: 'Ctrl+Z', on: { click: () => this.step('undo') } }, '↶ Undo');
     this.redoButton = el('button', { type: 'button', class: 'button', title: 'Ctrl+Shift+Z', on: { click: () => this.step('redo') } }, '↷ Redo');
     this.open = el('select', { on: { change: () => this.opened() } });
-    this.save = el('a', { class: 'button', href: app.token('/surface.toml'), download: 'surface.toml' }, 'Save as TOML');
+    this.save = el('a', { class: 'button', href: app.line.address('/surface.toml'), download: 'surface.toml' }, 'Save as TOML');
     this.input = el('input', { type: 'file', class: 'seen-not', accept: '.toml,text/plain', on: { change: () => this.chosen() } });
     this.faults = el('div', { class: 'faults', role: 'alert', hidden: true });
     this.source = el('p', { class: 'quiet' });
@@ -95,7 +95,7 @@ export class SurfaceFile {
     this.edits.begin();
     changedHere();
     try {
-      const answer = await fetch(this.app.token('/surface'), { method: 'POST', headers: { 'content-type': 'application/toml' }, body: text });
+      const answer = await this.app.line.ask('/surface', { method: 'POST', headers: { 'content-type': 'application/toml' }, body: text });
       if (answer.ok) {
         changedHere();
         this.complain(null);

@@ -15,3 +15,4 @@ import './stop.test.mjs';
 import './stories.test.mjs';
 import './viewers.test.mjs';
 import './words.test.mjs';
+import './worker.test.mjs';
