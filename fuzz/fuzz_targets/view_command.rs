@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use unripple_store::load_surface;
-use unripple_viewer::{Command, Draft};
+use unripple_session::{Command, Draft};
 
 fuzz_target!(|text: &str| match Command::read(text) {
     Ok(Command::Edit(edit)) => {
