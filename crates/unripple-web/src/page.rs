@@ -6,7 +6,8 @@ use std::time::Duration;
 use unripple::core::Surface;
 use unripple::core::clock::Instant;
 use unripple_session::{
-    Command, ComputeWorker, Done, Errand, Instrument, Measured, Out, Session, Settled, Spec, ViewError,
+    Command, ComputeWorker, Done, Errand, Instrument, Measured, Out, Picture, Session, Settled, Spec,
+    ViewError,
 };
 use unripple_tasks::{Lane, Silent};
 
@@ -43,6 +44,8 @@ pub struct Page {
     shown: u64,
     seen: u64,
     sent: Instant,
+    /// The picture in which most moves of those that could not be sent since.
+    held: Option<(Vec<u8>, Picture)>,
     /// The present surface as the text of its file, and the files of the newest measurement.
     toml: String,
     measured: Option<Measured>,
@@ -69,6 +72,7 @@ impl Page {
             shown: 0,
             seen: 0,
             sent: now,
+            held: None,
             toml: String::new(),
             measured: None,
         };
@@ -145,6 +149,20 @@ impl Page {
         }
     }
 
+    /// Sends a picture, or the one that was held where more moves in that; holds it while the page draws others.
+    fn show(&mut self, bytes: Vec<u8>, picture: Picture) {
+        let (bytes, picture) = match self.held.take() {
+            Some((held, strong)) if strong.outdoes(&picture) => (held, strong),
+            _ => (bytes, picture),
+        };
+        if self.shown.saturating_sub(self.seen) >= UNSEEN && self.sent.elapsed() < UNSURE {
+            self.held = Some((bytes, picture));
+        } else {
+            (self.shown, self.sent) = (picture.number, Instant::now());
+            self.out.push_back(Message::Frame(bytes));
+        }
+    }
+
     fn refuse(&mut self, why: &str) {
         self.tell(&json!({ "is": "fault", "text": why }));
     }
@@ -163,18 +181,12 @@ impl Page {
                     }
                     self.out.push_back(Message::Text(text));
                 }
-                Out::Frame(_, bytes, number) => {
-                    let waits =
-                        self.shown.saturating_sub(self.seen) >= UNSEEN && self.sent.elapsed() < UNSURE;
-                    if !waits {
-                        (self.shown, self.sent) = (number, Instant::now());
-                        self.out.push_back(Message::Frame(bytes));
-                    }
-                }
+                Out::Frame(_, bytes, picture) => self.show(bytes, picture),
                 // Only a page that comes later would still be sent it.
                 Out::Withdraw(_) => {}
                 Out::Refuse(_, why) => self.refuse(&why),
                 Out::Stopped(_, id) => self.tell(&json!({ "is": "stopped", "id": id })),
+                Out::Answer(_, text) => self.out.push_back(Message::Text(text)),
                 Out::Measured(files) => self.measured = Some(*files),
             }
         }
