@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from skimage import metrics
 
 import unripple as ur
 
 
 def test_the_report_has_the_similarity_that_scikit_image_finds(field: ur.Field) -> None:
-    metrics = pytest.importorskip("skimage.metrics")
     assert field.grid is not None
     columns, rows, _, _ = field.grid
     report = field.report
