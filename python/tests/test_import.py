@@ -75,6 +75,8 @@ def test_the_band_is_that_of_numpy(film: ur.Surface, known: dict[str, Any], want
     _near(wanted, np.fft.irfft(lines, known["h"].shape[-1]))
 
 
+# pyuff leaves the files that it writes to be closed by the garbage collector.
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 @pytest.mark.parametrize("binary", [0, 1])
 def test_universal_files_of_pyuff(
     film: ur.Surface, known: dict[str, Any], wanted: npt.NDArray[Any], binary: int
