@@ -8,6 +8,10 @@ const STEPS: usize = 8;
 /// A relative change of the sum of squares that ends the refinement.
 const ENOUGH: f64 = 1e-7;
 
+/// Least ratio of an amplitude to its deviation: white noise alone reaches it in one of 10^14 trials. Other sound than that of the surface, as
+/// that of a room, does so often.
+pub(super) const CLEAR: f64 = 8.0;
+
 /// A decaying exponential: amplitude · exp(log · n) at sample n.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Exponential {
@@ -19,6 +23,13 @@ pub(super) struct Exponential {
     pub spread: f64,
     /// Standard deviation of either part of the amplitude.
     pub amplitude_spread: f64,
+}
+
+impl Exponential {
+    /// Amplitude over its standard deviation.
+    pub fn clarity(&self) -> f64 {
+        self.amplitude.norm() / self.amplitude_spread.max(f64::MIN_POSITIVE)
+    }
 }
 
 /// Exponentials of samples, with their least-squares amplitudes.
@@ -91,9 +102,26 @@ impl Normal {
     }
 }
 
-/// Refines exponentials of samples from the logarithms of their factors; `None` if the equations are singular, or if there are too many
-/// exponentials for the samples.
+/// Refines exponentials of samples from the logarithms of their factors, and leaves out one by one those that are not [clear](CLEAR) of the
+/// noise: two exponentials may share one mode, so that both are unclear though the mode is strong. The last one is kept, clear or not.
+/// `None` if the equations are singular, or if there are too many exponentials for the samples.
 pub(super) fn refined(samples: &[c64], logs: Vec<c64>) -> Option<Vec<Exponential>> {
+    let mut found = refined_together(samples, logs)?;
+    while found.len() > 1 {
+        let clarities = found.iter().map(Exponential::clarity).enumerate();
+        let (weakest, clarity) = clarities.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        if clarity >= CLEAR {
+            break;
+        }
+        found.remove(weakest);
+        let Some(next) = refined_together(samples, found.iter().map(|one| one.log).collect()) else { break };
+        found = next;
+    }
+    Some(found)
+}
+
+/// Refines all exponentials of samples together.
+fn refined_together(samples: &[c64], logs: Vec<c64>) -> Option<Vec<Exponential>> {
     let count = logs.len();
     if count == 0 || samples.len() < 3 * count {
         return None;
@@ -118,8 +146,9 @@ pub(super) fn refined(samples: &[c64], logs: Vec<c64>) -> Option<Vec<Exponential
     let spare = samples.len() - 2 * count;
     let noise = here.squares / spare as f64;
     let inverse = Normal::of(&here.slopes())?.inverse_diagonal();
-    // Half of the power of the noise is in each part of a complex number.
-    let spread = |i: usize| (0.5 * noise * inverse[i].max(0.0)).sqrt();
+    // Half of the power of the noise is in each part of a complex number. A variance that is not above 0 is rounding: the equations are
+    // singular.
+    let spread = |i: usize| if inverse[i] > 0.0 { (0.5 * noise * inverse[i]).sqrt() } else { f64::INFINITY };
     let one = |k: usize| Exponential {
         log: here.logs[k],
         amplitude: here.amplitudes[k],
@@ -127,4 +156,33 @@ pub(super) fn refined(samples: &[c64], logs: Vec<c64>) -> Option<Vec<Exponential
         amplitude_spread: spread(k),
     };
     Some((0..count).map(one).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use unripple_core::Random;
+
+    #[test]
+    fn two_exponentials_of_one_mode_become_one() {
+        let mut random = Random::seeded(5);
+        let truth = c64::new(-0.02, 0.4);
+        let mut noise = || c64::new(random.normal(), random.normal()) * 0.02;
+        let samples: Vec<c64> = (0..150).map(|n: i32| (truth * f64::from(n)).exp() + noise()).collect();
+        let apart = c64::new(2e-3, 4e-3);
+        let found = refined(&samples, vec![truth + apart, truth - apart, c64::new(-0.03, -1.0)]).unwrap();
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!((found[0].log - truth).norm() < 2e-3 && found[0].clarity() > 5.0 * CLEAR, "{found:?}");
+    }
+
+    #[test]
+    fn modes_side_by_side_stay_two() {
+        let mut random = Random::seeded(6);
+        let truth = [c64::new(-0.02, 0.4), c64::new(-0.02, 0.5)];
+        let mut noise = || c64::new(random.normal(), random.normal()) * 0.01;
+        let sample = |n: i32| truth.iter().map(|log| (*log * f64::from(n)).exp()).sum::<c64>() + noise();
+        let samples: Vec<c64> = (0..150).map(sample).collect();
+        let found = refined(&samples, truth.to_vec()).unwrap();
+        assert_eq!(found.len(), 2, "{found:?}");
+    }
 }

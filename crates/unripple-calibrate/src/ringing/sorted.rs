@@ -1,11 +1,8 @@
 //! What the exponentials of a recording are: modes, mains hum, or steady tones.
 
-use super::refined::Exponential;
+use super::refined::{CLEAR, Exponential};
 use super::sub_band::SubBand;
 use std::f64::consts::{PI, TAU};
-
-/// Least ratio of an amplitude to its deviation: noise alone reaches it in one of 10^14 trials.
-const CLEAR: f64 = 8.0;
 
 /// Least quality factor of a mode: what decays faster is the hit itself, or an edge of the sub-band.
 const LEAST_Q: f64 = 3.0;
@@ -44,7 +41,7 @@ impl Tone {
     /// The exponential of a sub-band `width` Hz wide; `None` if it lies beyond its middle part or is not clear of the noise.
     pub fn of(found: &Exponential, band: &SubBand, width: f64, number: usize) -> Option<Self> {
         let away = found.log.im / TAU * band.rate;
-        let clarity = found.amplitude.norm() / found.amplitude_spread.max(f64::MIN_POSITIVE);
+        let clarity = found.clarity();
         let spread = found.spread * band.rate;
         let tone = Self {
             hz: [band.centre + away, spread / TAU],
