@@ -36,7 +36,8 @@ def listen(recording: _types.Path, **options: Unpack[_frequency_types.ListenOpti
     Returns
     -------
     Report
-        With the ``modes``, their ``frequency_hz`` and ``decay_time_s`` with intervals, and ``modes_text``, which :func:`fit_modes` takes.
+        With the ``modes``, their ``frequency_hz`` and ``decay_time_s`` with intervals, and ``modes_text``, which :func:`fit_modes` takes,
+        without those that are ``doubtful``: less than 24 dB clear of the noise, as sound of a room is.
 
     Examples
     --------

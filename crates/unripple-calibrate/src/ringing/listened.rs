@@ -38,6 +38,9 @@ const FASTEST: f64 = 0.7;
 /// Half of a 95 % interval in standard deviations.
 const HALF: f64 = 1.96;
 
+/// Clarity in dB below which a mode may be one of the room: its sound, noise that decays, has tones of up to this clarity.
+const DOUBTFUL: f64 = 24.0;
+
 /// What to listen for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ListenOptions {
@@ -74,6 +77,13 @@ pub struct RungMode {
     pub level_db: f64,
     /// Amplitude over its standard deviation, in dB.
     pub clarity_db: f64,
+}
+
+impl RungMode {
+    /// Whether it may be no mode of the surface, but sound of the room: less than 24 dB clear of the noise.
+    pub fn is_doubtful(&self) -> bool {
+        self.clarity_db < DOUBTFUL
+    }
 }
 
 /// A tone that does not decay.

@@ -8,8 +8,8 @@ const STEPS: usize = 8;
 /// A relative change of the sum of squares that ends the refinement.
 const ENOUGH: f64 = 1e-7;
 
-/// Least ratio of an amplitude to its deviation: white noise alone reaches it in one of 10^14 trials. Other sound than that of the surface, as
-/// that of a room, does so often.
+/// Least ratio of an amplitude to its deviation: white noise alone reaches it in one of 10^14 trials. The sound of a room, which decays as
+/// modes do, reaches it often.
 pub(super) const CLEAR: f64 = 8.0;
 
 /// A decaying exponential: amplitude · exp(log · n) at sample n.

@@ -95,6 +95,27 @@ fn intervals_hold_the_truth_in_most_cases() {
 }
 
 #[test]
+fn the_sound_of_a_room_is_doubtful() {
+    let mut doubtful = 0;
+    for seed in 20..24 {
+        let mut random = Random::seeded(seed);
+        let mut sound = recording(&[0.3], 50.0, 3e-3, seed);
+        // Noise that falls by 60 dB in 0.3 s, as in a small room.
+        let begin = (0.3 * RATE) as usize;
+        for (n, sample) in sound[begin..].iter_mut().enumerate() {
+            *sample += 0.2 * 1e3_f64.powf(-(n as f64) / RATE / 0.3) * random.normal();
+        }
+        let found = heard(&sound);
+        let known = |hz: f64| MODES.iter().any(|mode| (mode[0] / hz - 1.0).abs() < 5e-3);
+        let clear: Vec<f64> =
+            found.modes.iter().filter(|mode| !mode.is_doubtful()).map(|mode| mode.hz).collect();
+        assert!(clear.len() >= 5 && clear.iter().all(|hz| known(*hz)), "{:?}", found.modes);
+        doubtful += found.modes.iter().filter(|mode| !known(mode.hz)).count();
+    }
+    assert!(doubtful > 0, "the room is to be heard");
+}
+
+#[test]
 fn recordings_without_a_knock_are_refused() {
     let usual = ListenOptions::default();
     let told = |recording: &[f64], options: &ListenOptions| listen(recording, RATE, options).unwrap_err();

@@ -29,7 +29,7 @@ pub struct Report {
     pub used_s: [f64; 2],
     /// The modes, lowest first.
     pub modes: Vec<Rung>,
-    /// The modes as `fit --modes` takes them.
+    /// The modes as `fit --modes` takes them, without doubtful ones.
     pub modes_text: String,
     /// Frequency of the mains in Hz; `None` if nothing of it was heard.
     pub mains_hz: Option<f64>,
@@ -60,6 +60,8 @@ pub struct Rung {
     pub level_db: f64,
     /// Amplitude over its standard deviation, in dB.
     pub clarity_db: f64,
+    /// Whether it may be sound of the room: less than 24 dB clear of the noise.
+    pub doubtful: bool,
 }
 
 impl Rung {
@@ -72,7 +74,14 @@ impl Rung {
             quality_factor: PI * found.hz * found.decay_time,
             level_db: found.level_db,
             clarity_db: found.clarity_db,
+            doubtful: found.is_doubtful(),
         }
+    }
+
+    /// Modes as `fit --modes` takes them: those that are not doubtful.
+    pub(super) fn typed(modes: &[Self]) -> String {
+        let one = |mode: &Self| format!("{:.2}:{:.2}", mode.frequency_hz, 1e3 * mode.decay_time_s);
+        modes.iter().filter(|mode| !mode.doubtful).map(one).collect::<Vec<_>>().join(",")
     }
 }
 
@@ -132,11 +141,12 @@ impl crate::Report for Report {
                 (format!("{low:.2} to {high:.2}"), format!("{:.1} to {:.1}", 1e3 * short, 1e3 * long));
             let _ = writeln!(
                 text,
-                "{:12.2}   {hz:<20} {:10.2}   {decay:<15} {:>4.0} {:10.1}",
+                "{:12.2}   {hz:<20} {:10.2}   {decay:<15} {:>4.0} {:10.1}{}",
                 mode.frequency_hz,
                 1e3 * mode.decay_time_s,
                 mode.quality_factor,
-                mode.level_db
+                mode.level_db,
+                if mode.doubtful { "  doubtful" } else { "" }
             );
         }
         let tones = |tones: &[Tone]| {
@@ -151,9 +161,35 @@ impl crate::Report for Report {
         for note in &self.notes {
             let _ = writeln!(text, "note ({}): {}", note.topic, note.text);
         }
-        if !self.modes.is_empty() {
+        if !self.modes_text.is_empty() {
             let _ = writeln!(text, "\nFor a fit:\n  unripple fit SURFACE --modes {}", self.modes_text);
         }
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Report as _;
+
+    #[test]
+    fn doubtful_modes_are_marked_and_not_for_a_fit() {
+        let rung = |hz: f64, clarity_db: f64| {
+            let (hz_interval, decay_interval) = ([hz, hz], [0.1, 0.1]);
+            Rung::of(&RungMode {
+                hz,
+                hz_interval,
+                decay_time: 0.1,
+                decay_interval,
+                level_db: 0.0,
+                clarity_db,
+            })
+        };
+        let modes = vec![rung(100.0, 40.0), rung(150.0, 20.0), rung(200.0, 24.5)];
+        assert_eq!(modes.iter().map(|mode| mode.doubtful).collect::<Vec<_>>(), [false, true, false]);
+        assert_eq!(Rung::typed(&modes), "100.00:100.00,200.00:100.00");
+        let alone = Report { modes: modes[1..2].to_vec(), ..Report::default() }.text();
+        assert!(alone.contains("doubtful") && !alone.contains("--modes"), "{alone}");
     }
 }

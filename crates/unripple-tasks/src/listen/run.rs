@@ -89,7 +89,6 @@ fn channel(ask: &Ask, wav: &Wav) -> Result<usize, TaskError> {
 fn reported(ask: &Ask, wav: &Wav, channel: usize, heard: &Knock) -> Report {
     let sound = &wav.channels[channel];
     let modes: Vec<Rung> = heard.modes.iter().map(Rung::of).collect();
-    let typed = |mode: &Rung| format!("{:.2}:{:.2}", mode.frequency_hz, 1e3 * mode.decay_time_s);
     Report {
         program: "unripple",
         version: env!("CARGO_PKG_VERSION"),
@@ -100,7 +99,7 @@ fn reported(ask: &Ask, wav: &Wav, channel: usize, heard: &Knock) -> Report {
         length_s: sound.len() as f64 / wav.rate,
         hits_s: heard.hits.clone(),
         used_s: heard.used,
-        modes_text: modes.iter().map(typed).collect::<Vec<_>>().join(","),
+        modes_text: Rung::typed(&modes),
         modes,
         mains_hz: heard.mains,
         hum: heard.hum.iter().map(Tone::of).collect(),
@@ -129,6 +128,14 @@ fn notes(ask: &Ask, wav: &Wav, sound: &[f64], heard: &Knock) -> Vec<Note> {
     }
     if heard.modes.is_empty() {
         add("modes", "no mode is clear of the noise".into());
+    }
+    let doubtful = heard.modes.iter().filter(|mode| mode.is_doubtful()).count();
+    if doubtful > 0 {
+        let text = format!(
+            "{doubtful} of {} are less than 24 dB clear of the noise, as sound of a room is: they are not in the list for a fit",
+            heard.modes.len()
+        );
+        add("doubtful", text);
     }
     notes
 }
