@@ -165,6 +165,14 @@ fn notes(found: &FrequencyFit) -> Vec<Note> {
         );
         add("residuals", text);
     }
+    let (modes, spurious) = (found.best.modes.len(), found.best.spurious.len());
+    if is_much(spurious, modes) {
+        let text = format!(
+            "{spurious} of {} frequencies are taken for no mode: the values may be wrong; see which of them were heard clearly",
+            modes + spurious
+        );
+        add("spurious", text);
+    }
     let better = found.others.iter().filter(|other| other.explained.cost < found.best.cost - 1.0).count();
     if better > 0 {
         add(
@@ -175,6 +183,11 @@ fn notes(found: &FrequencyFit) -> Vec<Note> {
         );
     }
     notes
+}
+
+/// Whether at least a third of the frequencies are no mode.
+fn is_much(spurious: usize, modes: usize) -> bool {
+    spurious > 0 && 2 * spurious >= modes
 }
 
 /// Writes the fitted surface file and those of the others. One whose values a file cannot hold is told, and not written.
@@ -195,4 +208,15 @@ fn surfaces(out: &OutputDir, report: &mut Report) -> Result<(), TaskError> {
     report.files.extend(files);
     report.notes.extend(notes);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_much;
+
+    #[test]
+    fn a_third_of_the_frequencies_is_much() {
+        assert!(is_much(1, 2) && is_much(3, 4) && is_much(1, 0));
+        assert!(!is_much(0, 0) && !is_much(0, 4) && !is_much(1, 3) && !is_much(2, 5));
+    }
 }
