@@ -140,13 +140,14 @@ pub fn listen(recording: &[f64], rate: f64, options: &ListenOptions) -> Result<K
     let mains = options.mains.or_else(|| mains(&tones));
     let is_hum = |tone: &&Tone| mains.is_some_and(|mains| tone.is_hum(mains));
     let steady = |tone: &Tone| SteadyTone { hz: tone.hz[0], level_db: level(tone) };
+    let hum: Vec<SteadyTone> = tones.iter().filter(is_hum).map(steady).collect();
     Ok(Knock {
         hits: hits.iter().map(|hit| hit.from as f64 / rate).collect(),
         used: [from as f64 / rate, to as f64 / rate],
         modes: modes.into_iter().map(|tone| rung(tone, level(tone))).collect(),
-        hum: tones.iter().filter(is_hum).map(steady).collect(),
         tones: tones.iter().filter(|tone| tone.is_steady() && !is_hum(tone)).map(steady).collect(),
-        mains,
+        mains: mains.filter(|_| !hum.is_empty()),
+        hum,
     })
 }
 

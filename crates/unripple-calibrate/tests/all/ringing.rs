@@ -71,6 +71,10 @@ fn hum_and_steady_tones_are_no_modes() {
     assert!(found.tones.iter().any(|tone| (tone.hz - 437.0).abs() < 1.0), "{:?}", found.tones);
     assert!(found.modes.iter().all(|mode| (mode.hz - 437.0).abs() > 10.0 && mode.hz > 180.0));
     assert_eq!(heard(&recording(&[0.3], 59.97, 3e-3, 4)).mains, Some(60.0));
+    // A frequency that is named and not heard is none: no tone here is a multiple of 70 Hz.
+    let named = ListenOptions { mains: Some(70.0), ..ListenOptions::default() };
+    let found = listen(&recording(&[0.3], 50.0, 3e-3, 4), RATE, &named).unwrap();
+    assert!(found.mains.is_none() && found.hum.is_empty(), "{:?}", found.hum);
 }
 
 #[test]
