@@ -70,6 +70,8 @@ fn a_knock_becomes_a_fitted_surface() {
         (heard["hits_s"].as_array().unwrap().len(), heard["mains_hz"].as_f64()) == (2, Some(50.0)),
         "{heard}"
     );
+    let errors = refused(&["listen", &wav, "--hit", "4"], 2);
+    assert!(errors.contains("--hit: expected 1 to 2, found 4"), "{errors}");
     let modes = heard["modes_text"].as_str().unwrap();
     let report = json(&["fit", &plate, "--modes", modes, "--error-percent", "3", "-o", &fitted_in]);
     let young = number(&report, "/quantities/0/value");
@@ -128,6 +130,10 @@ fn bad_input_is_refused_with_the_option() {
         (&["--most", "5"][..], "knock: expected a hit"),
         (&["--channel", "2"], "--channel: expected 1 to 1, found 2"),
         (&["--band-hz", "200,100"], "--band-hz: expected two frequencies"),
+        (
+            &["--band-hz", "20,30000"],
+            "--band-hz: expected at most 6400, four tenths of the sample rate, found 30000",
+        ),
         (&["--hit", "0"], "--hit: expected a number from 1"),
         (&["--set", "accuracy=1"], "--accuracy: expected a command that reads a surface file"),
     ] {

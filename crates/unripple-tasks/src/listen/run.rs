@@ -5,6 +5,7 @@ use crate::figures::Columns;
 use crate::{Progress, TaskError, figures, folder, go_on};
 use unripple::act::Note;
 use unripple::dsp::rms;
+use unripple_calibrate::CalibrateError;
 use unripple_calibrate::ringing::{Knock, ListenOptions, listen};
 use unripple_store::{Wav, read_wav};
 
@@ -29,7 +30,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let sound = &wav.channels[channel];
     go_on(progress)?;
     progress.stage("listening");
-    let heard = listen(sound, wav.rate, &options)?;
+    let heard = listen(sound, wav.rate, &options).map_err(|error| refused(ask, error))?;
     go_on(progress)?;
     let mut report = reported(ask, &wav, channel, &heard);
     if let Some((out, record)) = out {
@@ -65,6 +66,20 @@ fn options(ask: &Ask) -> Result<ListenOptions, TaskError> {
         hit => hit.map(|number| number - 1),
     };
     Ok(ListenOptions { band: ask.band_hz, mains: ask.mains_hz, hit, most: ask.most, least_db: ask.least_db })
+}
+
+/// The error of listening, of the option that it is about where one was given: a band that the sample rate does not allow, or a hit that is
+/// not there or has too little after it.
+fn refused(ask: &Ask, error: CalibrateError) -> TaskError {
+    match error {
+        CalibrateError::Range(error) if ask.band_hz.is_some() && error.what.ends_with("frequency in Hz") => {
+            TaskError::ask("band_hz", error.expected, error.found)
+        }
+        CalibrateError::Recording { what, expected, found } if ask.hit.is_some() && what == "hit" => {
+            TaskError::ask("hit", expected, found)
+        }
+        error => error.into(),
+    }
 }
 
 /// Index of the channel to listen to.
