@@ -29,7 +29,7 @@ pub struct Report {
     pub spurious_hz: Vec<f64>,
     /// Sum of the squared residuals over the error, and of 3 for each missed mode and 16 for each spurious frequency.
     pub cost: f64,
-    /// Root mean square of the residuals over the error, per degree of freedom.
+    /// Root mean square of the residuals over the error, per degree of freedom; 1 if there are no more modes than quantities.
     pub excess: f64,
     /// Damping, if there were decay times.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -108,7 +108,12 @@ fn modes(text: &mut String, report: &Report) {
     if !report.spurious_hz.is_empty() {
         let _ = writeln!(text, "no mode: {} Hz", listed(&report.spurious_hz));
     }
-    let _ = writeln!(text, "residuals over the stated error: {:.2}", report.excess);
+    // No more frequencies than unknowns leave no residual to judge by.
+    let excess = match report.modes.len() > report.quantities.len() {
+        true => format!("{:.2}", report.excess),
+        false => "-".into(),
+    };
+    let _ = writeln!(text, "residuals over the stated error: {excess}");
 }
 
 fn others(text: &mut String, report: &Report) {
@@ -132,5 +137,29 @@ fn others(text: &mut String, report: &Report) {
             .as_ref()
             .map_or("nothing that was compared tells them apart", |told| told.text.as_str());
         let _ = writeln!(text, "   {telling}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit_modes::Mode;
+
+    #[test]
+    fn no_excess_is_printed_where_no_residual_is_left() {
+        let value = Value {
+            quantity: "tension".into(),
+            unit: "N/m",
+            value: 200.0,
+            interval: [190.0, 210.0],
+            nominal: 200.0,
+        };
+        let mode = Mode { mode: 1, measured_hz: 100.0, computed_hz: 100.0, residual: 0.0, left_out: None };
+        let printed = |count: usize| {
+            let (quantities, modes) = (vec![value.clone()], vec![mode; count]);
+            of(&Report { quantities, modes, excess: 1.0, ..Report::default() })
+        };
+        assert!(printed(1).contains("stated error: -\n"), "{}", printed(1));
+        assert!(printed(2).contains("stated error: 1.00\n"), "{}", printed(2));
     }
 }
