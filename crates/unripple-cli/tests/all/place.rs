@@ -219,8 +219,10 @@ fn layouts_can_be_compared_by_what_drives_of_a_method_reach() {
     assert!(number(second, "/layouts") <= 5.0 && number(second, "/most_layouts") == 5.0, "{second}");
     let [before, found] = ["time_reversal", "found"].map(|key| number(second, &format!("/searched/{key}")));
     assert!(found >= before, "{second}");
-    // The table by method is of the layout that was found, but does not weigh targets.
-    assert!(number(&report, "/methods/0/after/felt_contrast_db") > 0.0, "{report}");
+    // The table by method is of the layout that was found, at the same targets with the same weights.
+    let [table, found] = [(&report, "/methods/0/after/felt_contrast_db"), (second, "/evaluated/found")]
+        .map(|(of, key)| number(of, key));
+    assert!(table > 0.0 && (table / found - 1.0).abs() < 1e-4, "{report}");
     assert!(placed(&["--restarts", "1"])["second_search"].is_null());
 }
 

@@ -1,15 +1,17 @@
 //! Drives of focusing methods, evaluated before and after actuators were placed.
 
 use super::budget::JUDGED;
+use super::second::leading;
 use super::setting::Setting;
 use crate::{Progress, Solved, TaskError, go_on, judge};
 use serde::Serialize;
 use unripple::act::{Act, Level, Readouts};
-use unripple::core::{Point, Surface};
+use unripple::core::Surface;
 use unripple::focus::{Method, Options, Target};
+use unripple_placement::Aim;
 
-/// Metrics of the drives of one focusing method, averaged over some targets and simulated on modes up to twice
-/// the top of the band.
+/// Metrics of the drives of one focusing method, averaged over some targets with their weights and simulated on modes up to twice the top
+/// of the band.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ByMethod {
     /// Name of the method.
@@ -23,7 +25,7 @@ pub struct ByMethod {
     pub after: Means,
 }
 
-/// Metrics averaged over some targets; absent where a metric is not defined at one of them.
+/// Metrics averaged over some targets, with their weights; absent where a metric is not defined at one of them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Means {
     /// Contrast at the focal instant.
@@ -46,16 +48,16 @@ pub(super) fn each(
     if methods.is_empty() {
         return Ok(Vec::new());
     }
-    let at: Vec<Point> = setting.tested.iter().take(JUDGED).map(|aim| aim.at).collect();
+    let aims = leading(setting, &setting.tested, JUDGED);
     let own = &setting.surface;
     let before = match own.actuators.is_empty() {
         true => None,
-        false => Some(means(methods, own, &at, setting.window, progress)?),
+        false => Some(means(methods, own, &aims, setting.window, progress)?),
     };
-    let after = means(methods, built, &at, setting.window, progress)?;
+    let after = means(methods, built, &aims, setting.window, progress)?;
     let each = methods.iter().zip(after).enumerate().map(|(i, (method, after))| ByMethod {
         method: method.name(),
-        targets: at.len(),
+        targets: aims.len(),
         before: before.as_ref().map(|before| before[i].clone()),
         after,
     });
@@ -66,7 +68,7 @@ pub(super) fn each(
 fn means(
     methods: &[Method],
     surface: &Surface,
-    at: &[Point],
+    aims: &[Aim],
     window: f64,
     progress: &mut dyn Progress,
 ) -> Result<Vec<Means>, TaskError> {
@@ -75,10 +77,11 @@ fn means(
     go_on(progress)?;
     let (judge::Models { free: plant, .. }, _) = judge::models(surface, None, &[], &solved)?;
     let on = Readouts::of(&plant);
+    let total: f64 = aims.iter().map(|aim| aim.weight).sum();
     let mut all = Vec::with_capacity(methods.len());
     for method in methods {
         let mut sums = [Some(0.0); 4];
-        for target in at {
+        for aim in aims {
             go_on(progress)?;
             let options = Options {
                 method: *method,
@@ -87,7 +90,7 @@ fn means(
                 rms_limit: surface.emission.rms_limit,
                 ..Options::default()
             };
-            let targets = [Target::at(*target)];
+            let targets = [Target::at(aim.at)];
             let act =
                 Act { surface, responses: &plant, targets: &targets, options: &options, level: Level::Limit };
             let measured = act.run_from(&known, &on)?.judged.measured;
@@ -95,7 +98,7 @@ fn means(
             let energy = measured.drive.energy / (peak * peak);
             let values = [found.contrast, found.felt_contrast_db, found.felt_level_db, Some(energy)];
             for (sum, value) in sums.iter_mut().zip(values) {
-                *sum = sum.zip(value).map(|(sum, value)| sum + value / at.len() as f64);
+                *sum = sum.zip(value).map(|(sum, value)| sum + value * aim.weight / total);
             }
         }
         let [contrast, felt_contrast_db, felt_level_db, energy_for_peak] = sums;

@@ -132,7 +132,7 @@ impl Compared {
 }
 
 /// The first of some targets, which are spread evenly; of those that are named, the ones that weigh most.
-fn leading(setting: &Setting, aims: &[Aim], most: usize) -> Vec<Aim> {
+pub(super) fn leading(setting: &Setting, aims: &[Aim], most: usize) -> Vec<Aim> {
     let mut aims = aims.to_vec();
     if !setting.held_out {
         aims.sort_by(|a, b| b.weight.total_cmp(&a.weight));

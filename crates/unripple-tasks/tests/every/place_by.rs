@@ -115,6 +115,26 @@ fn no_layout_takes_more_energy_than_the_one_to_begin_with() {
     assert_eq!(first.searched.time_reversal, second.searched.time_reversal);
 }
 
+#[test]
+fn results_by_method_have_the_weights_of_the_targets_as_the_search_by_them_has() {
+    // More targets than are simulated, of which those that weigh most come last.
+    let points_m = (0..8).map(|i| [40e-3 + 10e-3 * f64::from(i), 70e-3]).collect();
+    let weights = (1..=8).map(f64::from).collect();
+    let ask = Ask {
+        points_m,
+        weights,
+        restarts: 0,
+        evaluations: Some(1),
+        ..asked(Method::Inverse, ByAsk::Contrast)
+    };
+    let report = place::run(&ask, &mut Silent).unwrap();
+    let (table, second) = (&report.methods[0], report.second_search.expect("a second search"));
+    assert!(table.targets < 8, "{table:?}");
+    assert_eq!(table.targets, second.evaluated.targets);
+    let (mean, found) = (table.after.contrast.expect("a contrast"), second.evaluated.found);
+    assert!((mean / found - 1.0).abs() < 1e-4, "{mean} {found}");
+}
+
 /// Whoever waits goes after two layouts of the second search.
 #[derive(Default)]
 struct Leaves {
