@@ -51,6 +51,7 @@ impl Stop {
         }
         let what = match told[old[0]].feasible() {
             Some([_]) => "the best design is",
+            _ if old.len() == 1 && new.len() == 1 => "the one design of the front is",
             _ => "the hypervolume of the front is",
         };
         let (percent, after) = (short(100.0 * self.share), self.after);
@@ -68,6 +69,8 @@ impl Stop {
         let (old, new) = (losses(old), losses(new));
         match (old.as_slice(), new.as_slice()) {
             ([[old], ..], [[new], ..]) => old - new > self.share * old.abs(),
+            // A box about two designs is as large as their difference, however small that is.
+            ([old], [new]) => old.iter().zip(*new).any(|(old, new)| old - new > self.share * old.abs()),
             _ => {
                 let [before, after] = volumes([&old, &new]);
                 after - before > self.share * before
@@ -111,6 +114,16 @@ mod tests {
         let two: [&[f64]; 5] = [&[0.0, 4.0], &[4.0, 0.0], &[1.0, 1.0], &[2.0, 2.0], &[1.0, 1.0]];
         assert_eq!(over(&ask(1, 0.01), &two), Some(3));
         assert_eq!(over(&ask(4, 0.01), &two), None);
+    }
+
+    #[test]
+    fn a_front_of_one_design_is_judged_by_its_objectives() {
+        let ask = |stop_share| Ask { stop_after: Some(1), stop_share, ..Ask::default() };
+        let slow: [&[f64]; 2] = [&[8.0, 1.0], &[7.99, 1.0]];
+        assert_eq!(over(&ask(0.01), &slow), Some(1));
+        assert_eq!(over(&ask(0.001), &slow), None);
+        let once: [&[f64]; 3] = [&[8.0, -1.0], &[7.99, -1.5], &[7.98, -1.5]];
+        assert_eq!(over(&ask(0.01), &once), Some(2));
     }
 
     #[test]
