@@ -263,15 +263,18 @@ fn bad_input_is_refused_with_the_option() {
         (&["--by", "contrast", "--evaluations", "0"], "--evaluations: expected 1 to 1000"),
         (&["--by", "loudness"], "--by"),
         (&["--grid-mm", "-1"], "--grid-mm"),
-        (&["--objective", "quantile", "--share-percent", "120"], "--share-percent"),
+        (
+            &["--objective", "quantile", "--share-percent", "150"],
+            "--share-percent: expected a share from 0 to 100 %, found 150 %",
+        ),
         (&["--mounting-mm", "-1"], "--mounting-mm"),
         (&["--mounting-mm", "20"], "--mounting-mm: expected at most a quarter of the shortest wavelength"),
-        (&["--set", "sheet.tension_n_per_m=0", "--tension-percent", "5"], "--tension-percent: expected 0"),
+        (&["--set", "sheet.tension_n_per_m=0", "--tension-percent", "5"], "--tension-percent: expected 0 %"),
         (
             &["--place", "400,400", "--place", "10,10", "--count", "1"],
             "--place: expected points on the surface",
         ),
-        (&["--tension-percent", "80"], "--tension-percent"),
+        (&["--tension-percent", "80"], "--tension-percent: expected a share from 0 to 50 %, found 80 %"),
         (&["--apart-mm", "nan"], "--apart-mm"),
         (&["--window-ms", "0"], "--window-ms"),
     ] {

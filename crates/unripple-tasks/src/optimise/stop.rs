@@ -30,7 +30,8 @@ impl Stop {
             return Err(TaskError::ask("stop_after", "at least 1 generation", after));
         }
         if !(0.0..1.0).contains(&ask.stop_share) {
-            return Err(TaskError::ask("stop_share", "a share from 0 to below 1", ask.stop_share));
+            let found = format!("{} %", short(100.0 * ask.stop_share));
+            return Err(TaskError::ask("stop_share", "a share from 0 to below 100 %", found));
         }
         Ok(Some(Self { after, share: ask.stop_share, fronts: VecDeque::new() }))
     }
@@ -132,7 +133,9 @@ mod tests {
         let none = refused(Ask { stop_after: Some(0), ..Ask::default() });
         assert!(none.starts_with("stop_after: expected at least 1"), "{none}");
         let all = refused(Ask { stop_after: Some(5), stop_share: f64::NAN, ..Ask::default() });
-        assert!(all.starts_with("stop_share: expected a share"), "{all}");
+        assert_eq!(all, "stop_share: expected a share from 0 to below 100 %, found NaN %");
+        let whole = refused(Ask { stop_after: Some(5), stop_share: 1.0, ..Ask::default() });
+        assert!(whole.ends_with("below 100 %, found 100 %"), "{whole}");
         assert!(Stop::of(&Ask::default()).unwrap().is_none());
     }
 }

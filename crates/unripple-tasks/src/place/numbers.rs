@@ -4,6 +4,7 @@ use super::Ask;
 use crate::TaskError;
 use crate::areas::{from_rim, polygons};
 use crate::numbers::above_zero;
+use crate::sweep::short;
 
 /// Largest number of actuators, of targets, and of layouts that are evaluated one by one. More are taken for a mistake.
 const MOST: usize = 1000;
@@ -28,7 +29,10 @@ pub(super) fn numbers(ask: &Ask) -> Result<(), TaskError> {
     }
     let share = |field: &'static str, found: f64, most: f64| match (0.0..=most).contains(&found) {
         true => Ok(()),
-        false => Err(TaskError::ask(field, format!("a number from 0 to {most}"), found)),
+        false => {
+            let expected = format!("a share from 0 to {} %", short(100.0 * most));
+            Err(TaskError::ask(field, expected, format!("{} %", short(100.0 * found))))
+        }
     };
     let length = |field: &'static str, found: f64| match (0.0..=1.0).contains(&found) {
         true => Ok(()),

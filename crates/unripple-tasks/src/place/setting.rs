@@ -7,6 +7,7 @@ use super::refused::refused;
 use super::{Ask, cost};
 use crate::areas::{from_rim, polygons};
 use crate::numbers::above_zero;
+use crate::sweep::short;
 use crate::window::{carries, conditions};
 use crate::{Progress, TaskError, go_on, point};
 use std::collections::HashSet;
@@ -209,7 +210,8 @@ fn bearable(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(), TaskErr
         return Err(TaskError::ask("mounting_m", expected, format!("{} mm", 1e3 * ask.mounting_m)));
     }
     if ask.tension > 0.0 && surface.sheet.tension == 0.0 {
-        return Err(TaskError::ask("tension", "0 on a sheet without tension", ask.tension));
+        let found = format!("{} %", short(100.0 * ask.tension));
+        return Err(TaskError::ask("tension", "0 % on a sheet without tension", found));
     }
     Ok(())
 }
