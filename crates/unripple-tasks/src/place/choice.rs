@@ -4,7 +4,7 @@ use super::Ask;
 use super::ask::TESTED;
 use super::importance::Importance;
 use super::numbers::numbers;
-use super::setting::{footprint, named_targets, of_targets, reach, target_rules};
+use super::setting::{footprint, named_targets, of_targets, reach, target_rules, without_weight};
 use crate::TaskError;
 use crate::areas::{from_rim, polygons};
 use crate::numbers::above_zero;
@@ -187,8 +187,10 @@ fn spread_targets(
     let conditions = &responses.conditions;
     let rules = target_rules(ask, conditions.lambda_min);
     let free = |at: &Point| responses.ports.iter().all(|port| port.at.distance(*at) > SAME);
-    let may = |at: &&Point| rules.allow(&conditions.outline, **at) && free(at) && importance.at(**at) > 0.0;
+    let may = |at: &&Point| rules.allow(&conditions.outline, **at) && free(at);
     let mut left: Vec<Point> = responses.points.iter().filter(may).copied().collect();
+    let room = left.len();
+    left.retain(|at| importance.at(*at) > 0.0);
     let count = left.len().min((1 + TESTED) * ask.targets);
     let mut aims = Vec::with_capacity(count);
     for even in spread(&conditions.outline, &rules, 0, count) {
@@ -199,6 +201,9 @@ fn spread_targets(
         }
     }
     if aims.len() < 2 {
+        if room >= 2 {
+            return Err(without_weight(format!("{} of {room} points of the library", aims.len())));
+        }
         let expected = "at least two points of the library that may be targets";
         let found = format!("{} at least a shortest wavelength from the rim, or in the areas", aims.len());
         return Err(TaskError::ask("points_m, targets_within_m", expected, found));
@@ -241,6 +246,7 @@ fn window(
 
 #[cfg(test)]
 mod tests {
+    use super::super::ask::ImportantAsk;
     use super::*;
     use unripple::core::{ActuatorKind, Conditions, Outline, Port, Shape};
 
@@ -311,8 +317,17 @@ mod tests {
         }
         let corner = vec![vec![[0.0, 0.0], [0.015, 0.0], [0.015, 0.015], [0.0, 0.015]]];
         let ask = Ask { targets_within_m: corner, ..Ask::default() };
+        let error = |ask: &Ask| {
+            let refused = spread_targets(ask, &Importance::of(ask).unwrap(), &responses).unwrap_err();
+            refused.to_string()
+        };
         // Its only point is an actuator's.
-        assert!(spread_targets(&ask, &Importance::of(&ask).unwrap(), &responses).is_err());
+        let none = error(&ask);
+        assert!(none.starts_with("points_m, targets_within_m: expected at least two points"), "{none}");
+        let area_m = vec![[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]];
+        let ask = Ask { important: vec![ImportantAsk { area_m, weight: 0.0 }], ..Ask::default() };
+        let unweighed = error(&ask);
+        assert!(unweighed.starts_with("importance, important: expected weights above 0"), "{unweighed}");
     }
 
     #[test]

@@ -28,7 +28,7 @@ impl Importance {
         if given && !ask.points_m.is_empty() {
             let expected =
                 "targets that are spread over the surface: those that are named have weights of their own";
-            return Err(TaskError::ask("importance, important", expected, "some that `points_m` names"));
+            return Err(TaskError::ask("importance, important", expected, "targets that are named"));
         }
         if let Some(area) = ask.important.iter().find(|area| !(area.weight.is_finite() && area.weight >= 0.0))
         {
@@ -124,6 +124,7 @@ mod tests {
         assert_eq!(negative, "important: expected weights from 0, found -1");
         let named = error(Ask { important: vec![left(1.0)], points_m: vec![[0.1, 0.1]], ..Ask::default() });
         assert!(named.starts_with("importance, important: expected targets that are spread"), "{named}");
+        assert!(named.ends_with("found targets that are named"), "{named}");
         let line = ImportantAsk { area_m: vec![[0.0, 0.0], [0.1, 0.0]], weight: 1.0 };
         assert!(error(Ask { important: vec![line], ..Ask::default() }).contains("at least 3 corners"));
         assert!(

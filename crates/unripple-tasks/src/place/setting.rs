@@ -12,10 +12,11 @@ use crate::window::{carries, conditions};
 use crate::{Progress, TaskError, go_on, point};
 use std::collections::HashSet;
 use std::f64::consts::PI;
+use std::fmt::Display;
 use unripple::act::{Note, accuracy, chosen_window, less_accurate, model};
 use unripple::core::{Actuator, ActuatorKind, Conditions, Outline, Patch, Point, Random, Responses, Surface};
 use unripple::physics::Transducer;
-use unripple_placement::{Aim, Plant, Rules};
+use unripple_placement::{Aim, Plant, Rules, spread};
 
 /// Share of the shortest wavelength that is the default spacing of places: shapes change little between two of them, and the polish moves
 /// actuators further.
@@ -265,7 +266,8 @@ fn places(
     places.retain(|at| Transducer::of(&Actuator { at: *at, ..kind.clone() }, outline).is_ok());
     if places.len() < ask.count {
         let expected = format!("at least {}, one for each actuator", ask.count);
-        return Err(TaskError::ask("places_m, pitch_m, rim_m", expected, format!("{} places", places.len())));
+        let found = format!("{} places", places.len());
+        return Err(TaskError::ask("places_m, pitch_m, rim_m, within_m, keep_out_m", expected, found));
     }
     Ok(places)
 }
@@ -293,6 +295,11 @@ pub(super) fn target_rules(ask: &Ask, lambda_min: f64) -> Rules {
     Rules { from_rim: [from_rim, f64::INFINITY], within, ..Rules::default() }
 }
 
+/// The error where there would be room for targets, but places with a weight are few: those that were `found`.
+pub(super) fn without_weight(found: impl Display) -> TaskError {
+    TaskError::ask("importance, important", "weights above 0 where targets may be", found)
+}
+
 /// The targets that layouts are optimised for, and those on which they are evaluated.
 fn targets(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(Vec<Aim>, Vec<Aim>), TaskError> {
     let (outline, importance) = (&surface.outline, Importance::of(ask)?);
@@ -301,10 +308,13 @@ fn targets(ask: &Ask, surface: &Surface, lambda_min: f64) -> Result<(Vec<Aim>, V
         return Ok((aims.clone(), aims));
     }
     let rules = target_rules(ask, lambda_min);
-    let mut trained = importance.spread(outline, &rules, (1 + TESTED) * ask.targets);
-    if trained.len() < (1 + TESTED) * ask.targets {
-        let found = "hardly any: the surface is small compared with its shortest wavelength, or the areas lie beyond it, or nothing in \
-                     them has a weight";
+    let count = (1 + TESTED) * ask.targets;
+    let mut trained = importance.spread(outline, &rules, count);
+    if trained.len() < count {
+        if spread(outline, &rules, 0, count).len() == count {
+            return Err(without_weight("hardly any"));
+        }
+        let found = "hardly any: the surface is small compared with its shortest wavelength, or the areas lie beyond it";
         return Err(TaskError::ask("points_m, targets_within_m", "room for targets on the surface", found));
     }
     let tested = trained.split_off(ask.targets);
