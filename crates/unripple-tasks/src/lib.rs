@@ -72,6 +72,7 @@ mod report;
 pub mod rerun;
 pub mod respond;
 pub mod sensors;
+mod several;
 mod solved;
 pub mod source;
 pub mod stroke;

@@ -3,6 +3,7 @@
 use super::course::Course;
 use super::{End, EndedBy, Good, Search, Step};
 use crate::TaskError;
+use crate::several::several;
 use crate::sweep::{FailedDesign, Named, listed, short};
 use serde::Serialize;
 use std::fmt::Write;
@@ -131,7 +132,8 @@ impl Report {
         if self.objectives.len() == 1 || self.front.is_empty() {
             return String::new();
         }
-        let mut text = format!("  {} designs that no other one is better than:\n", self.front.len());
+        let front = several(self.front.len(), "design");
+        let mut text = format!("  {front} that no other one is better than:\n");
         self.front.iter().take(LISTED).for_each(|good| text += &format!("    {}", line(good)));
         if self.front.len() > LISTED {
             let _ = writeln!(text, "    ... and {} more; --json lists all", self.front.len() - LISTED);
@@ -175,7 +177,9 @@ impl crate::Report for Report {
         let mut text = format!("{plan}: {wanted} of `{task}` on {surface}{by}\n");
         let _ = writeln!(
             text,
-            "  {done} of {generations} generations, {designs} designs, {} failed",
+            "  {done} of {}, {}, {} failed",
+            several(*generations, "generation"),
+            several(*designs, "design"),
             self.failed
         );
         for failed in self.failures.iter().take(TOLD) {
@@ -203,6 +207,10 @@ impl crate::Report for Report {
     fn failure(&self) -> Option<String> {
         let all = self.failed == self.designs && self.to_ask.is_none();
         let first = self.failures.first().filter(|_| all)?;
-        Some(format!("all {} designs failed, the first of them: {}", self.designs, first.error))
+        let what = match self.designs {
+            1 => "the one design failed".to_owned(),
+            designs => format!("all {designs} designs failed, the first of them"),
+        };
+        Some(format!("{what}: {}", first.error))
     }
 }

@@ -102,7 +102,7 @@ pub(super) fn searched(
         layouts,
         most_layouts: most,
         settled,
-        certificate: certificate(settled),
+        certificate: certificate(settled, ask.count),
         searched: Compared::of(by, aims.len(), [before, after]),
         evaluated: Compared::of(by, evaluated.0, evaluated.1),
     };
@@ -153,9 +153,11 @@ fn objective_name(objective: Objective, by: ByAsk) -> String {
     }
 }
 
-/// What is known of how good the layout can be, in words, by whether the search settled.
-fn certificate(settled: bool) -> &'static str {
+/// What is known of how good the layout can be, in words, by whether the search settled and the number of actuators that are placed.
+fn certificate(settled: bool, count: usize) -> &'static str {
     match settled {
+        // Its moves are all the places.
+        true if count == 1 => "every place was evaluated: the best on these places",
         true => {
             "no move of one actuator from the best layout on the places is better, but another layout may be: the search is local"
         }

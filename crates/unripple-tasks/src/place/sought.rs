@@ -126,7 +126,7 @@ pub(super) fn objective_name(ask: &Ask) -> String {
         Objective::Mean => "mean contrast".into(),
         Objective::Worst => "least contrast".into(),
         Objective::Quantile(share) => {
-            format!("contrast that is lower at {:.0} % of the targets", 100.0 * share)
+            format!("contrast that is worse at {:.0} % of the targets", 100.0 * share)
         }
     }
 }

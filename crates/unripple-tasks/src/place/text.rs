@@ -2,6 +2,7 @@
 
 use super::placed::Layout;
 use super::{Report, Second};
+use crate::several::several;
 use crate::thinned::thinned;
 use std::fmt::Write;
 
@@ -9,9 +10,9 @@ impl Report {
     /// The report as Markdown, with its figures.
     pub(super) fn markdown(&self) -> String {
         let mut all = format!(
-            "# {}: {} actuators {}\n\n```text\n{}```\n",
+            "# {}: {} {}\n\n```text\n{}```\n",
             self.surface,
-            self.count,
+            several(self.count, "actuator"),
             self.found(),
             of(self)
         );
@@ -55,11 +56,11 @@ fn of(report: &Report) -> String {
     };
     let _ = writeln!(
         text,
-        "{}: {} actuators {chosen}, for the {aim} (window {:.1} ms) at {} targets; evaluated on {}{others}.\n",
+        "{}: {} {chosen}, for the {aim} (window {:.1} ms) at {}; evaluated on {}{others}.\n",
         report.surface,
-        report.count,
+        several(report.count, "actuator"),
         1e3 * report.window_s,
-        report.placed_for,
+        several(report.placed_for, "target"),
         report.evaluated_on,
     );
     for (actuator, number) in report.after.actuators.iter().zip(1..) {
@@ -130,8 +131,8 @@ fn search(text: &mut String, report: &Report) {
     let which = if report.second_search.is_some() { "search for time reversal" } else { "search" };
     let _ = writeln!(
         text,
-        "{which}: {} starting layouts reached {least:.2} to {:.2}{polished}; certificate: {}",
-        restarts.reached.len(),
+        "{which}: {} reached {least:.2} to {:.2}{polished}; certificate: {}",
+        several(restarts.reached.len(), "starting layout"),
         restarts.best,
         report.certificate.certificate
     );
@@ -166,7 +167,8 @@ fn second(text: &mut String, report: &Report) {
     }
     let _ = writeln!(
         text,
-        "search by it: {layouts} layouts of at most {most_layouts} evaluated; {}",
+        "search by it: {} of at most {most_layouts} evaluated; {}",
+        several(*layouts, "layout"),
         second.certificate
     );
 }

@@ -135,6 +135,16 @@ fn results_by_method_have_the_weights_of_the_targets_as_the_search_by_them_has()
     assert!((mean / found - 1.0).abs() < 1e-4, "{mean} {found}");
 }
 
+#[test]
+fn one_actuator_at_the_best_of_all_places_is_said_to_be_that() {
+    let (found, second) = searched(&Ask { count: 1, ..asked(Method::Inverse, ByAsk::Contrast) });
+    assert_eq!((found.len(), second.settled), (1, true), "{second:?}");
+    assert_eq!(second.certificate, "every place was evaluated: the best on these places");
+    // Without all of them, nothing is known.
+    let few = Ask { count: 1, evaluations: Some(2), ..asked(Method::Inverse, ByAsk::Contrast) };
+    assert!(searched(&few).1.certificate.starts_with("their number ended the search"));
+}
+
 /// Whoever waits goes after two layouts of the second search.
 #[derive(Default)]
 struct Leaves {
