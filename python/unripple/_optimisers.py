@@ -213,7 +213,7 @@ class _TradeOff:
         self.unknowns, self.objectives = unknowns, question["objectives"]
         _labels.needed("pymoo.config", "optimise").Config.warnings["not_compiled"] = False
         population = question["population"] or _POPULATION
-        self.by_directions = self.objectives > max(_FEW, 0) and population >= self.objectives
+        self.by_directions = self.objectives > _FEW and population >= self.objectives
         if self.by_directions:
             made = _labels.needed("pymoo.algorithms.moo.unsga3", "optimise").UNSGA3(
                 ref_dirs=self._directions(population), pop_size=population

@@ -82,6 +82,11 @@ impl Folder {
         self.plan(generation).is_file()
     }
 
+    /// Number of generations from this one on that have been asked for.
+    pub fn asked_from(&self, generation: usize) -> usize {
+        (generation..).take_while(|later| self.is_asked(*later)).count()
+    }
+
     /// The optimiser that asked for the designs of a generation, as it calls itself; `None` where it does not.
     pub fn asker(&self, generation: usize) -> Option<String> {
         let text = fs::read_to_string(self.plan(generation)).ok()?;

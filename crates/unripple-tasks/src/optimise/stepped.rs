@@ -191,6 +191,7 @@ impl Stepped {
         self.put_table()?;
         let mut report = Report::of(&self.search, &self.course)?;
         report.files.push(TABLE.into());
+        report.notes.extend(self.left_out());
         if let Some(text) = &report.best_surface {
             write_file(self.folder.file(BEST), text.as_bytes())?;
             report.files.push(BEST.into());
@@ -206,6 +207,16 @@ impl Stepped {
         write_file(self.folder.file(REPORT), self.record.json(&report)?.as_bytes())?;
         progress.tell(&format!("wrote {}", self.folder.file(TABLE).display()));
         Ok(report)
+    }
+
+    /// A note on generations in the folder that are not among those of the plan, as of one that had more.
+    fn left_out(&self) -> Option<Note> {
+        let text = match self.folder.asked_from(self.search.file().generations) {
+            0 => return None,
+            1 => "1 later generation in the folder is left out".to_owned(),
+            later => format!("{later} later generations in the folder are left out"),
+        };
+        Some(Note { topic: "generations", text })
     }
 
     /// Draws the figures, and returns the names of their files.

@@ -267,6 +267,21 @@ fn a_search_may_be_made_longer_and_no_other_goes_into_its_folder() {
 }
 
 #[test]
+fn generations_beyond_those_of_a_shorter_plan_are_left_out_with_a_note() {
+    let scratch = Scratch::new("search-shorter");
+    let of = |number: usize| PLAN.replace("generations = 5", &format!("generations = {number}"));
+    let longer = searched(&scratch.ask(&of(3), "out"));
+    assert!(longer.notes.iter().all(|note| note.topic != "generations"), "{:?}", longer.notes);
+    for (number, expected) in
+        [(2, "1 later generation in"), (1, "2 later generations in the folder are left out")]
+    {
+        let shorter = searched(&scratch.ask(&of(number), "out"));
+        assert!(shorter.text().contains(&format!("note, generations: {expected}")), "{}", shorter.text());
+        assert_eq!(shorter.designs, number * longer.designs / 3);
+    }
+}
+
+#[test]
 fn the_front_of_two_objectives_is_reported_and_drawn() {
     let scratch = Scratch::new("search-front");
     let second = "[[objective]]\nfigure = \"/decay_times_s/0\"\nwant = \"most\"\n[[constraint]]";
