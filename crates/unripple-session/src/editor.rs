@@ -59,8 +59,7 @@ impl Editor {
     /// # Errors
     /// [`ViewError`] for an edit that cannot be applied; then nothing has changed.
     pub fn edit(&mut self, page: u64, edit: &Edit) -> Result<(), ViewError> {
-        self.draft.hand_to(page);
-        self.draft.edit(edit)?;
+        self.draft.edit_by(page, edit)?;
         self.changed(edit.settled != Some(false));
         Ok(())
     }
@@ -100,7 +99,7 @@ impl Editor {
         Ok(())
     }
 
-    /// Replaces the surface by one read from the text of a surface file.
+    /// Replaces the surface by one read from the text of a surface file. This counts as nobody's edit: any page may undo it.
     ///
     /// # Errors
     /// All faults of the file, as text.

@@ -33,7 +33,7 @@ pub struct Draft {
     surface: Surface,
     /// Number of the page that edits.
     by: u64,
-    /// Before the edit that is under way, if it is not settled.
+    /// Before that page's edit that is under way, if it is not settled.
     base: Option<Surface>,
     past: Vec<Step>,
     future: Vec<Step>,
@@ -52,16 +52,25 @@ impl Draft {
         Self { surface, by: 0, base: None, past: Vec::new(), future: Vec::new() }
     }
 
-    /// Counts edits from now on as those of a page, given by its number; 0 for nobody's.
+    /// Counts edits from now on as those of a page, given by its number; 0 for nobody's. What another page has under way becomes an undo
+    /// step of that page.
     pub fn hand_to(&mut self, page: u64) {
+        if page == self.by {
+            return;
+        }
+        if let Some(base) = self.base.take().filter(|base| *base != self.surface) {
+            self.keep(base);
+        }
         self.by = page;
     }
 
     /// Numbers of the pages whose edits an undo takes back and a redo repeats; `None` where there is none.
     pub fn whose(&self) -> (Option<u64>, Option<u64>) {
         let by = |steps: &[Step]| steps.last().map(|step| step.by);
-        let undoes = self.base.as_ref().map(|_| self.by).or_else(|| by(&self.past));
-        (undoes, by(&self.future))
+        match self.base {
+            Some(_) => (Some(self.by), None),
+            None => (by(&self.past), by(&self.future)),
+        }
     }
 
     /// The surface as it is now.
@@ -71,17 +80,28 @@ impl Draft {
 
     /// Whether an edit can be undone, and whether one can be redone.
     pub fn ways(&self) -> (bool, bool) {
-        (!self.past.is_empty(), !self.future.is_empty())
+        let (undoes, redoes) = self.whose();
+        (undoes.is_some(), redoes.is_some())
     }
 
-    /// Applies an edit. Edits that are not settled, as during a drag, form one undo step with the next settled one.
+    /// Applies an edit of the page that edited last. Edits that are not settled, as during a drag, form one undo step with the next settled
+    /// one.
     ///
     /// # Errors
     /// [`ViewError::Range`] for names and actuators that do not exist; [`ViewError::Store`] with all faults that the edited surface would
     /// have. The surface then stays as it was.
     pub fn edit(&mut self, edit: &Edit) -> Result<(), ViewError> {
+        self.edit_by(self.by, edit)
+    }
+
+    /// As [`edit`](Self::edit), for a page given by its number, to which the surface is [handed](Self::hand_to) if the edit can be applied.
+    ///
+    /// # Errors
+    /// Those of [`edit`](Self::edit); what another page has under way then stays under way.
+    pub fn edit_by(&mut self, page: u64, edit: &Edit) -> Result<(), ViewError> {
         known(edit, self.surface.actuators.len())?;
         let edited = checked(&apply(&self.surface, edit))?;
+        self.hand_to(page);
         let before = std::mem::replace(&mut self.surface, edited);
         let base = self.base.take().unwrap_or(before);
         if edit.settled == Some(false) {
@@ -109,8 +129,11 @@ impl Draft {
         true
     }
 
-    /// Redoes one edit; returns whether there was one.
+    /// Redoes one edit; returns whether there was one. While an edit is under way there is none.
     pub fn redo(&mut self) -> bool {
+        if self.base.is_some() {
+            return false;
+        }
         let Some(Step { surface, by }) = self.future.pop() else { return false };
         self.past.push(Step { surface: std::mem::replace(&mut self.surface, surface), by });
         true
@@ -182,6 +205,51 @@ mod tests {
         assert!(draft.redo() && draft.surface().sheet.tension == 240.0);
         draft.edit(&tension(50.0, true)).unwrap();
         assert!(!draft.redo());
+    }
+
+    #[test]
+    fn a_refused_edit_of_another_page_leaves_a_drag_as_it_is() {
+        let mut draft = Draft::new(papers_surface());
+        draft.edit_by(1, &tension(230.0, false)).unwrap();
+        assert_eq!((draft.whose(), draft.ways()), ((Some(1), None), (true, false)));
+        draft.edit_by(2, &Edit { thickness_mm: Some(0.0), ..Edit::default() }).unwrap_err();
+        assert_eq!(draft.whose(), (Some(1), None));
+        draft.edit_by(1, &tension(240.0, true)).unwrap();
+        assert_eq!(draft.whose(), (Some(1), None));
+        assert!(draft.undo() && draft.surface() == &papers_surface());
+        assert!(!draft.undo());
+    }
+
+    #[test]
+    fn an_edit_of_another_page_is_no_part_of_a_drag() {
+        let mut draft = Draft::new(papers_surface());
+        let before = draft.surface().sheet.clone();
+        draft.edit_by(1, &tension(230.0, false)).unwrap();
+        draft.edit_by(2, &Edit { thickness_mm: Some(0.15), ..Edit::default() }).unwrap();
+        draft.edit_by(1, &tension(240.0, true)).unwrap();
+        let thick = draft.surface().sheet.thickness;
+        assert!((thick - 0.15e-3).abs() < 1e-12 && thick != before.thickness);
+        for (page, tension, thickness) in
+            [(1, 230.0, thick), (2, 230.0, before.thickness), (1, before.tension, before.thickness)]
+        {
+            assert_eq!(draft.whose().0, Some(page));
+            assert!(draft.undo());
+            assert_eq!(
+                (draft.surface().sheet.tension, draft.surface().sheet.thickness),
+                (tension, thickness)
+            );
+        }
+        assert_eq!(draft.whose(), (None, Some(1)));
+    }
+
+    #[test]
+    fn nothing_is_redone_in_the_middle_of_a_drag() {
+        let mut draft = Draft::new(papers_surface());
+        draft.edit_by(2, &tension(100.0, true)).unwrap();
+        assert!(draft.undo() && draft.ways() == (false, true));
+        draft.edit_by(1, &tension(230.0, false)).unwrap();
+        assert_eq!(draft.ways(), (true, false));
+        assert!(!draft.redo() && draft.surface().sheet.tension == 230.0);
     }
 
     #[test]
