@@ -74,6 +74,7 @@ export class StoryScene {
       this.app.link.send(given({ do: 'settings', method, effect, window_ms, rate_hz, quantity }));
       this.app.link.send({ do: 'transport', live: true, speed: settings.speed ?? 1, paused: Boolean(settings.paused) });
     }
+    if (!surface || surface.library) return;
     if (kept) this.offer(surface);
     else if (changed) this.makeSure(surface, changed);
   }
