@@ -37,6 +37,31 @@ impl Picture {
     }
 }
 
+/// The picture in which most moves of those that could not be sent to a page: a page that draws few must not miss every focus. `B` are the
+/// bytes of a picture.
+#[derive(Clone, Debug)]
+pub struct Held<B>(Option<(B, Picture)>);
+
+impl<B> Default for Held<B> {
+    fn default() -> Self {
+        Self(None)
+    }
+}
+
+impl<B> Held<B> {
+    /// What a page is to be sent when a newer picture comes: this one, or the one held if that [outdoes](Picture::outdoes) it. While
+    /// the page is `full` that is held instead, and there is nothing to send.
+    pub fn pass(&mut self, bytes: B, picture: Picture, full: bool) -> Option<(B, Picture)> {
+        let held = self.0.take().filter(|(_, held)| held.outdoes(&picture));
+        let better = held.unwrap_or((bytes, picture));
+        if full {
+            self.0 = Some(better);
+            return None;
+        }
+        Some(better)
+    }
+}
+
 /// One message of the session to pages.
 #[derive(Clone, Debug)]
 pub enum Out {
@@ -113,5 +138,16 @@ mod tests {
         assert!(!focus.outdoes(&picture(9, 3, Some(3e-5))));
         assert!(!focus.outdoes(&picture(9, 8, Some(1e-6))), "of a surface that is gone");
         assert!(!focus.outdoes(&picture(9, 3, None)), "where time stands still the newest is shown");
+    }
+
+    #[test]
+    fn the_strongest_of_the_pictures_that_a_page_missed_is_sent_once() {
+        let picture = |number, strength| Picture { number, first: 1, strength: Some(strength) };
+        let (mut held, full) = (Held::default(), true);
+        for (number, strength) in [(1, 1e-6), (2, 3e-5), (3, 2e-6)] {
+            assert_eq!(held.pass(number, picture(number, strength), full), None);
+        }
+        assert_eq!(held.pass(4, picture(4, 1e-6), !full), Some((2, picture(2, 3e-5))));
+        assert_eq!(held.pass(5, picture(5, 1e-6), !full), Some((5, picture(5, 1e-6))));
     }
 }

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use tokio::sync::mpsc::{Receiver, channel};
 use tokio::time::{Instant, MissedTickBehavior, timeout};
-use unripple_session::{Command, LONGEST, Phase, Picture};
+use unripple_session::{Command, Held, LONGEST, Phase};
 
 /// Number of frames that may be sent before the page says that it has drawn them. With one a distant page draws one frame for each round
 /// trip; with many it lags behind by as many.
@@ -53,7 +53,7 @@ pub async fn serve(mut socket: WebSocket, host: Arc<SessionHost>) {
         shown: 0,
         seen: 0,
         last: Instant::now(),
-        held: None,
+        held: Held::default(),
         refused: 0,
         unanswered: 0,
         second: Second::now(),
@@ -74,8 +74,7 @@ struct Link {
     shown: u64,
     seen: u64,
     last: Instant,
-    /// The picture in which most moves of those that could not be sent since.
-    held: Option<(Bytes, Picture)>,
+    held: Held<Bytes>,
     refused: u32,
     /// Questions since the page said something.
     unanswered: u32,
@@ -132,7 +131,7 @@ impl Link {
 
     /// Sends what the page has not been sent; frames only as fast as it draws them.
     async fn catch_up(&mut self, socket: &mut WebSocket) -> bool {
-        let waits = self.shown.saturating_sub(self.seen) >= UNSEEN;
+        let full = self.shown.saturating_sub(self.seen) >= UNSEEN;
         for (version, notice) in self.host.notices.since(self.texts.min(self.frames)) {
             let message = match notice {
                 Notice::Text(text) if version > self.texts => {
@@ -140,11 +139,7 @@ impl Link {
                     Message::Text(Utf8Bytes::from(&*text))
                 }
                 Notice::Frame(bytes, picture) if version > self.frames => {
-                    let (bytes, picture) = self.better(bytes, picture);
-                    if waits {
-                        self.held = Some((bytes, picture));
-                        continue;
-                    }
+                    let Some((bytes, picture)) = self.held.pass(bytes, picture, full) else { continue };
                     (self.frames, self.shown, self.last) = (version, picture.number, Instant::now());
                     Message::Binary(bytes)
                 }
@@ -155,14 +150,6 @@ impl Link {
             }
         }
         true
-    }
-
-    /// A picture, or the one that was held where more moves in that: a page that draws few must not miss every focus.
-    fn better(&mut self, bytes: Bytes, picture: Picture) -> (Bytes, Picture) {
-        match self.held.take() {
-            Some((held, strong)) if strong.outdoes(&picture) => (held, strong),
-            _ => (bytes, picture),
-        }
     }
 
     /// Takes in a message; `false` ends the link.

@@ -6,7 +6,7 @@ use std::time::Duration;
 use unripple::core::Surface;
 use unripple::core::clock::Instant;
 use unripple_session::{
-    Command, ComputeWorker, Done, Errand, Instrument, Measured, Out, Picture, Session, Settled, Spec,
+    Command, ComputeWorker, Done, Errand, Held, Instrument, Measured, Out, Picture, Session, Settled, Spec,
     ViewError,
 };
 use unripple_tasks::{Lane, Silent};
@@ -44,8 +44,7 @@ pub struct Page {
     shown: u64,
     seen: u64,
     sent: Instant,
-    /// The picture in which most moves of those that could not be sent since.
-    held: Option<(Vec<u8>, Picture)>,
+    held: Held<Vec<u8>>,
     /// The present surface as the text of its file, and the files of the newest measurement.
     toml: String,
     measured: Option<Measured>,
@@ -72,7 +71,7 @@ impl Page {
             shown: 0,
             seen: 0,
             sent: now,
-            held: None,
+            held: Held::default(),
             toml: String::new(),
             measured: None,
         };
@@ -151,13 +150,8 @@ impl Page {
 
     /// Sends a picture, or the one that was held where more moves in that; holds it while the page draws others.
     fn show(&mut self, bytes: Vec<u8>, picture: Picture) {
-        let (bytes, picture) = match self.held.take() {
-            Some((held, strong)) if strong.outdoes(&picture) => (held, strong),
-            _ => (bytes, picture),
-        };
-        if self.shown.saturating_sub(self.seen) >= UNSEEN && self.sent.elapsed() < UNSURE {
-            self.held = Some((bytes, picture));
-        } else {
+        let full = self.shown.saturating_sub(self.seen) >= UNSEEN && self.sent.elapsed() < UNSURE;
+        if let Some((bytes, picture)) = self.held.pass(bytes, picture, full) {
             (self.shown, self.sent) = (picture.number, Instant::now());
             self.out.push_back(Message::Frame(bytes));
         }
