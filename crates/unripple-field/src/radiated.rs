@@ -87,6 +87,7 @@ pub struct Listener {
 ///     shapes: Arc::new(Piston),
 ///     conditions: Conditions { rate: 48e3, band: [0.0, 1000.0], lambda_min: 0.3, outline },
 ///     frequency_error: 0.0,
+///     mode_errors: Vec::new(),
 /// });
 /// let above = Point::new(0.01, 0.005);
 /// let listener = Listener { above, height: 1.0, density: 1.2, celerity: 343.0, wavelength: 0.3 };
