@@ -64,6 +64,7 @@ mod radiated;
 mod reach;
 mod reading;
 mod readout;
+mod ringing;
 mod sampled;
 mod similarity;
 mod source;

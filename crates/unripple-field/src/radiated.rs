@@ -6,6 +6,7 @@ use crate::measure::whole_period;
 use crate::modal::{READ, STATES};
 use crate::motion::Motion;
 use crate::quadrature::nodes;
+use crate::ringing::Ringing;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Drive, Mixture, ModalResponses, Point, Pole, Responses, Shapes, require};
 use unripple_dsp::{RateOfChange, sinc, smooth_size};
@@ -25,12 +26,12 @@ const PANEL: f64 = 0.75;
 /// Fewest panels along the longer side of a surface whose waves are long.
 const FEWEST: f64 = 8.0;
 
-/// Share of the energy of the slowest mode that may be left where free vibration is no longer followed; with what fades before, 0.04 dB of
-/// the exposure. With twice this value, 0.07 dB.
+/// Share of the energy of the slowest mode that may be left where free vibration is no longer followed from sample to sample. It counts in
+/// the exposure all the same, in closed form. With twice this value, the pressure ends a tenth earlier.
 const LEFT: f64 = 4e-3;
 
 /// Longest time of free vibration, as a multiple of the drive's length. With twice this value, drives of surfaces without damping take
-/// almost twice as long.
+/// almost twice as long. What rings on counts in the exposure, except without damping, where it has no end.
 const LONGEST: usize = 16;
 
 /// Largest number of samples of free vibration, 22 s at 48 kHz. With twice this value, twice the memory, 16 MiB.
@@ -60,7 +61,7 @@ pub struct Listener {
 /// The Rayleigh integral p(t) = ρ/2π ∫ a(x, t − r/c)/r dS sums the acceleration a over a surface in a rigid baffle. It is linear in the
 /// motion of the modes: the integral of each mode's shape is computed once, sorted by delays of whole samples, and a drive then costs as
 /// much as its motion at a few tens of points. After the drive, where modes vibrate freely, all delays of a mode are one change of
-/// amplitude and phase.
+/// amplitude and phase, and the energy that they still radiate has a closed form.
 ///
 /// ```
 /// use unripple_core::{Conditions, Drive, ModalResponses, Outline, Point, Pole, Port, Responses, Shape, Shapes};
@@ -116,11 +117,11 @@ pub struct Radiated<'a> {
 pub struct Pressure {
     /// Pressure in Pa, one value per sample; the time at which the first sample is heard is not counted.
     pub values: Vec<f64>,
-    /// Integral of the squared pressure over time, in Pa²s: over the period, or over the whole event.
+    /// Integral of the squared pressure over time, in Pa²s: over the period, or over the whole event with all that rings on after `values`.
     pub exposure: f64,
     /// The same of the A-weighted pressure.
     pub a_weighted_exposure: f64,
-    /// The period of a repeated drive, or the length of the event that was followed, in seconds.
+    /// The period of a repeated drive, or the length of the part of the event that `values` follow, in seconds.
     pub duration: f64,
 }
 
@@ -174,8 +175,8 @@ impl<'a> Radiated<'a> {
     /// [`FieldError::Range`] for a period longer than the drive.
     pub fn pressure(&self, drive: &Drive, period: Option<f64>) -> Result<Pressure, FieldError> {
         check(self.responses, drive)?;
-        let mut flow = match period {
-            Some(period) => self.repeated(drive, whole_period(period, drive)?),
+        let (mut flow, [later, later_heard]) = match period {
+            Some(period) => (self.repeated(drive, whole_period(period, drive)?), [0.0; 2]),
             None => self.single(drive),
         };
         let duration = flow.len() as f64 / drive.rate();
@@ -183,11 +184,11 @@ impl<'a> Radiated<'a> {
             flow.resize(smooth_size(flow.len()), 0.0);
         }
         let RateOfChange { values, squares, a_weighted_squares } = RateOfChange::of(&flow, drive.rate());
-        let scale = self.density * self.density / drive.rate();
+        let square = self.density * self.density;
         Ok(Pressure {
             values: values.into_iter().map(|value| self.density * value).collect(),
-            exposure: scale * squares,
-            a_weighted_exposure: scale * a_weighted_squares,
+            exposure: square * (squares / drive.rate() + later),
+            a_weighted_exposure: square * (a_weighted_squares / drive.rate() + later_heard),
             duration,
         })
     }
@@ -208,8 +209,10 @@ impl<'a> Radiated<'a> {
         flow
     }
 
-    /// The integral of the delayed velocity, in m²/s, from the beginning of a drive until the surface is at rest.
-    fn single(&self, drive: &Drive) -> Vec<f64> {
+    /// The integral of the delayed velocity, in m²/s, from the beginning of a drive until the surface is at rest or has been
+    /// followed for long enough; and the integral of its squared rate of change that is not in it, as it is and A-weighted, in m⁴/s³: what
+    /// is faded out, and what rings on.
+    fn single(&self, drive: &Drive) -> (Vec<f64>, [f64; 2]) {
         let driven = drive.samples() + self.delayed.nrows();
         let mut flow = vec![0.0; driven];
         let mut motion = Motion::new(self.modal, drive);
@@ -223,19 +226,27 @@ impl<'a> Radiated<'a> {
         }
         let longest = MOST_FREE.min(LONGEST * driven);
         let rest = rest(&self.modal.poles, drive.rate()).min(longest as f64) as usize;
-        let [displacements, velocities] = &self.free;
-        while motion.next() < driven + rest {
-            let count = (driven + rest - motion.next()).min(self.at_once());
+        let (end, fade) = (driven + rest, (rest / FADED).max(1));
+        let ringing = Ringing::new(&self.modal.poles, &self.free);
+        let mut later = [0.0; 2];
+        while motion.next() < end {
+            let count = (end - motion.next()).min(self.at_once());
             motion.advance(count, |displacement, velocity| {
-                let moved = displacement.iter().zip(displacements).map(|(u, weight)| u * weight).sum::<f64>();
-                flow.push(moved + velocity.iter().zip(velocities).map(|(v, weight)| v * weight).sum::<f64>());
+                let left = end - 1 - flow.len();
+                let share =
+                    if left < fade { (PI / 2.0 * left as f64 / fade as f64).sin().powi(2) } else { 1.0 };
+                flow.push(share * ringing.value(displacement, velocity));
+                if left < fade {
+                    let lost = (1.0 - share * share) / drive.rate();
+                    let squares = ringing.squares(displacement, velocity);
+                    later.iter_mut().zip(squares).for_each(|(later, square)| *later += lost * square);
+                }
             });
         }
-        let fade = (rest / FADED).max(1);
-        for (left, value) in flow.iter_mut().rev().take(fade).enumerate() {
-            *value *= (PI / 2.0 * left as f64 / fade as f64).sin().powi(2);
-        }
-        flow
+        let (displacement, velocity) = motion.state();
+        let on = ringing.to_come(displacement, velocity);
+        later.iter_mut().zip(on).for_each(|(later, on)| *later += on);
+        (flow, later)
     }
 
     /// The integral over the surface for each delay, at the next samples before `end`: delays x samples.

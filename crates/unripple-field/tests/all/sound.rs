@@ -147,10 +147,50 @@ fn an_event_that_dies_out_is_one_period_of_events_far_apart() {
         (single.a_weighted_exposure, repeated.a_weighted_exposure),
         (single.peak().powi(2), repeated.peak().powi(2)),
     ] {
-        // Some of the energy is left when it is no longer followed, and some fades before.
         assert!((10.0 * (one / other).log10()).abs() < 0.05, "{one} {other}");
     }
     assert!(single.a_weighted_exposure < single.exposure);
+}
+
+/// What rings on when a drive is no longer followed counts: a surface that rings for 1 s against a sum over 7 s of it, with modes that are
+/// close together (a nearly square sheet) and far apart.
+#[test]
+fn the_exposure_of_long_ringing_is_that_of_a_sum_over_many_decay_times() {
+    let [width, height, rate] = [0.15, 0.149, 4e3];
+    let modes = [((1.0, 1.0), 150.0), ((1.0, 3.0), 335.0), ((3.0, 1.0), 335.4), ((3.0, 3.0), 450.0)];
+    let shapes =
+        Sines { width, height, areal_density: 0.175, numbers: modes.iter().map(|mode| mode.0).collect() };
+    let at = [Point::new(0.031, 0.052)];
+    let modal = ModalResponses {
+        ports: vec![Port { name: "a1".into(), at: at[0] }],
+        poles: modes.iter().map(|mode| Pole::new(TAU * mode.1, 1.0)).collect(),
+        input: shapes.at_all(&at),
+        shapes: Arc::new(shapes),
+        conditions: Conditions {
+            rate,
+            band: [0.0, 500.0],
+            lambda_min: 0.07,
+            outline: Outline::new(Shape::Rectangle { width, height }),
+        },
+        frequency_error: 0.0,
+        mode_errors: Vec::new(),
+    };
+    let [short, long] = [12, 28_000].map(|samples| {
+        let pulse = |i: usize| if i < 12 { (PI * i as f64 / 12.0).sin().powi(2) } else { 0.0 };
+        drive(&modal, vec![(0..samples).map(pulse).collect()])
+    });
+    let responses = Responses::Modal(modal);
+    let above = Point::new(width / 2.0, height / 2.0);
+    let radiated = Radiated::new(&responses, &listener(above, 0.3, 0.07)).unwrap().unwrap();
+    let single = radiated.pressure(&short, None).unwrap();
+    let whole = radiated.pressure(&long, Some(long.duration())).unwrap();
+    // Most of it was not followed.
+    assert!(single.duration < 0.4, "{} s", single.duration);
+    for (one, other) in
+        [(single.exposure, whole.exposure), (single.a_weighted_exposure, whole.a_weighted_exposure)]
+    {
+        assert!((10.0 * (one / other).log10()).abs() < 0.1, "{one} {other}");
+    }
 }
 
 #[test]
