@@ -112,16 +112,24 @@ impl Report {
         let largest = self.decay_errors.iter().flatten().copied().reduce(f64::max);
         let unknown = decaying - self.decay_errors.iter().flatten().count();
         let known = match largest {
-            None => "not known".into(),
+            None => format!("not known ({})", self.why_unknown()),
             Some(0.0) => "rounding alone".into(),
             Some(error) => format!("at most {error:.1e}"),
         };
         let but = if largest.is_some() && unknown > 0 {
-            format!(", not known of {unknown} modes")
+            format!(", not known of {unknown} modes ({})", self.why_unknown())
         } else {
             String::new()
         };
         format!("  relative error of a decay time: {known}{but}\n")
+    }
+
+    /// Why the error of a decay time is not known: its bound is too large, which smaller errors of frequencies may change.
+    fn why_unknown(&self) -> &'static str {
+        match self.relative_error {
+            0.0 => "above 50 %",
+            _ => "above 50 %; a finer --accuracy may tell",
+        }
     }
 
     /// The line on motions as a rigid body among the modes, if there are any.
@@ -155,5 +163,34 @@ impl crate::Report for Report {
             let _ = writeln!(text, "{:6} {} {share:17.3}", i + 1, columns(Some(hz), Some(decay)));
         }
         text + &more(self.count) + &self.remarks()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_error_of_a_decay_time_has_its_reason() {
+        let mut report = Report {
+            surface: "film".into(),
+            max_hz: 500.0,
+            count: 2,
+            frequencies_hz: vec![100.0, 200.0],
+            decay_times_s: vec![Some(0.1); 2],
+            bending_shares: vec![0.1; 2],
+            relative_error: 1e-2,
+            decay_errors: vec![None; 2],
+            loaded: None,
+            notes: Vec::new(),
+        };
+        let line = "  relative error of a decay time: ";
+        let said = report.of_decay();
+        assert_eq!(said, format!("{line}not known (above 50 %; a finer --accuracy may tell)\n"));
+        report.decay_errors[0] = Some(0.2);
+        let said = report.of_decay();
+        assert!(said.contains(", not known of 1 modes (above 50 %; a finer"), "{said}");
+        report.relative_error = 0.0;
+        assert!(report.of_decay().contains("not known of 1 modes (above 50 %)"));
     }
 }
