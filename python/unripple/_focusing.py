@@ -64,7 +64,7 @@ class Focusing:
         on, judge_hz
             Another surface to evaluate the drive on, and up to which frequency.
         listen_m
-            Height above the middle of the surface at which the sound pressure level is computed, in m; 0.3 by default.
+            Height above the middle of the surface at which the sound pressure level is computed, in m: 0.05 to 100, 0.3 by default.
         output, no_figures, columns
             Folder for drive, report and figures, as the command line writes it.
 
@@ -169,7 +169,7 @@ class Focusing:
         judge_hz
             Highest frequency of the modes in Hz; by default up to twice the top of the band.
         listen_m
-            Height above the middle of the surface at which the sound pressure level is computed, in m; 0.3 by default.
+            Height above the middle of the surface at which the sound pressure level is computed, in m: 0.05 to 100, 0.3 by default.
         output, no_figures, columns, movie_ms, frames
             Folder for report, pictures and animation, as the command line writes it.
 

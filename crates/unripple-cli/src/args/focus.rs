@@ -132,7 +132,7 @@ pub struct FocusOptions {
     /// times), at most 0.45 of the sample rate.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
-    /// Height above the middle of the surface, in m, at which the sound pressure level is computed; 0.3 by default.
+    /// Height above the middle of the surface, in m, at which the sound pressure level is computed: 0.05 to 100, 0.3 by default.
     #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub listen_m: Option<f64>,
     #[command(flatten)]

@@ -21,8 +21,9 @@ const WITHOUT_SCALE: &str = "the scale of the responses is not known";
 /// The sound of a drive at a listener above the middle of the surface, as levels in dB re 20 µPa.
 ///
 /// It is that of the surface in a rigid baffle, of one face, by the Rayleigh integral in air at 20 °C. Without a baffle the two faces
-/// partly cancel, and a sheet radiates less below coincidence: the levels are upper bounds there. Levels that do not apply are `None`: those
-/// of a single event have no mean, and those of a repeated one no exposure. All are `None` for a silent drive.
+/// partly cancel, and a sheet radiates less below coincidence: the levels are upper bounds there as long as the sheet is small against the
+/// waves in air. Of shorter waves, diffraction at the rim may add to the level at some places, as on the axis. Levels that do not apply are
+/// `None`: those of a single event have no mean, and those of a repeated one no exposure. All are `None` for a silent drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sound {
     /// The listener's place x, y, z, in metres: above the middle of the bounding box of the surface.
