@@ -3,7 +3,7 @@
 use super::assembled::{Assembled, Rows};
 use super::measured::Who;
 use super::modal::{Mode, Modes, Synthesis};
-use super::on_surface::{key, limited, on_sheet, resolved};
+use super::on_surface::{By, key, limited, on_sheet, resolved};
 use super::units::drive_per_reference;
 use super::{Ask, Per};
 use crate::TaskError;
@@ -71,24 +71,32 @@ fn drives(
     places: &[Point],
     from: &str,
 ) -> Result<Vec<Option<(usize, f64)>>, TaskError> {
-    let mut drives: Vec<Option<(usize, f64)>> = vec![None; surface.actuators.len()];
+    // The surest node of each actuator, with how it is known and its distance.
+    let mut surest: Vec<Option<(By, f64, usize)>> = vec![None; surface.actuators.len()];
     for (node, (name, at)) in names.iter().zip(places).enumerate() {
         on_sheet(surface, *at, &format!("{from}: node {name}"))?;
         // Most nodes are at no actuator.
         let who = Who { names: vec![name.clone()], at: Some(*at) };
-        let Ok(actuator) = resolved(ask, surface, &who, from) else { continue };
-        let kind = unit(&surface.actuators[actuator].kind);
-        let scale = 1.0 / drive_per_reference(ask, Per::Newton, kind, from)?;
-        drives[actuator] = Some((node, scale));
-    }
-    for (drive, actuator) in drives.iter_mut().zip(&surface.actuators) {
-        if ask.without.contains(&actuator.name) {
-            *drive = None;
-        } else if drive.is_none() {
-            let expected = "a node for each actuator, by its place or by `actuator_names`, or the names of those without";
-            let found = format!("none for {} at {} in {}", actuator.name, actuator.at, from);
-            return Err(TaskError::ask("without, actuator_names", expected, found));
+        let Ok((actuator, by)) = resolved(ask, surface, &who, from) else { continue };
+        let distance = surface.actuators[actuator].at.distance(*at);
+        if surest[actuator].is_none_or(|(other, away, _)| by < other || (by == other && distance < away)) {
+            surest[actuator] = Some((by, distance, node));
         }
+    }
+    let mut drives = Vec::with_capacity(surest.len());
+    for (node, actuator) in surest.iter().zip(&surface.actuators) {
+        drives.push(match node {
+            _ if ask.without.contains(&actuator.name) => None,
+            Some((_, _, node)) => {
+                let scale = 1.0 / drive_per_reference(ask, Per::Newton, unit(&actuator.kind), from)?;
+                Some((*node, scale))
+            }
+            None => {
+                let expected = "a node for each actuator, by its place or by `actuator_names`, or the names of those without";
+                let found = format!("none for {} at {} in {}", actuator.name, actuator.at, from);
+                return Err(TaskError::ask("without, actuator_names", expected, found));
+            }
+        });
     }
     Ok(drives)
 }
@@ -111,6 +119,55 @@ fn duration(ask: &Ask, modes: &[Mode]) -> Result<f64, TaskError> {
         false => {
             let found = format!("none, and the slowest mode takes {seconds} s to decay by 60 dB");
             Err(TaskError::ask("length_s", "the length of the responses", found))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All orders of the first numbers.
+    fn orders(count: usize) -> Vec<Vec<usize>> {
+        let mut orders: Vec<Vec<usize>> = vec![Vec::new()];
+        for next in 0..count {
+            let longer = orders.iter().flat_map(|order| {
+                (0..=order.len()).map(move |at| [&order[..at], &[next], &order[at..]].concat())
+            });
+            orders = longer.collect();
+        }
+        orders
+    }
+
+    #[test]
+    fn the_surest_node_of_an_actuator_drives_it_in_any_order() {
+        let surface = Ask::default().surface.load().unwrap();
+        let ask = Ask {
+            actuator_names: vec![("a1".into(), "3".into())],
+            without: surface.actuators[3..].iter().map(|actuator| actuator.name.clone()).collect(),
+            ..Ask::default()
+        };
+        let at = |actuator: usize| surface.actuators[actuator].at;
+        // Towards the middle, so that all are on the sheet.
+        let off = |actuator: usize| {
+            let (at, middle) = (at(actuator), Point::new(0.06, 0.09));
+            let share = 0.3e-3 / at.distance(middle);
+            Point::new(at.x + share * (middle.x - at.x), at.y + share * (middle.y - at.y))
+        };
+        let nodes = [
+            ("3", Point::new(0.05, 0.08)),
+            ("9", at(0)),
+            ("8", off(1)),
+            ("7", at(1)),
+            ("a3", Point::new(0.05, 0.07)),
+            ("6", at(2)),
+        ];
+        for order in orders(nodes.len()) {
+            let names: Vec<String> = order.iter().map(|n| nodes[*n].0.to_owned()).collect();
+            let places: Vec<Point> = order.iter().map(|n| nodes[*n].1).collect();
+            let drives = drives(&ask, &surface, &names, &places, "modes.csv").unwrap();
+            let driven: Vec<&str> = drives.iter().flatten().map(|(node, _)| names[*node].as_str()).collect();
+            assert_eq!(driven, ["3", "7", "a3"], "{names:?}");
         }
     }
 }

@@ -95,7 +95,7 @@ fn responses(
 impl Joining<'_> {
     fn join(&mut self, measured: Measured) -> Result<(), TaskError> {
         let Measured { from, who, at, signal, sign, says } = measured;
-        let actuator = resolved(self.ask, self.surface, &who, &from)?;
+        let (actuator, _) = resolved(self.ask, self.surface, &who, &from)?;
         let name = &self.surface.actuators[actuator].name;
         if self.ask.without.contains(name) {
             return Ok(());

@@ -28,11 +28,28 @@ pub(super) fn on_sheet(surface: &Surface, at: Point, from: &str) -> Result<(), T
     }
 }
 
-/// The actuator that a file means: by the request, by its name, or by its place.
-pub(super) fn resolved(ask: &Ask, surface: &Surface, who: &Who, from: &str) -> Result<usize, TaskError> {
+/// How it is known which actuator a file means, the surest way first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum By {
+    /// The request names it.
+    Request,
+    /// The file has its name.
+    Name,
+    /// It is the nearest one.
+    Place,
+}
+
+/// The actuator that a file means, and how it is known: by the request, by its name, or by its place.
+pub(super) fn resolved(
+    ask: &Ask,
+    surface: &Surface,
+    who: &Who,
+    from: &str,
+) -> Result<(usize, By), TaskError> {
     let named = |name: &String| surface.actuators.iter().position(|actuator| actuator.name == *name);
     let asked = ask.actuator_names.iter().find(|(_, other)| who.names.contains(other)).map(|(name, _)| name);
-    let known = asked.and_then(named).or_else(|| who.names.iter().find_map(named));
+    let asked = asked.and_then(named).map(|actuator| (actuator, By::Request));
+    let known = asked.or_else(|| who.names.iter().find_map(named).map(|actuator| (actuator, By::Name)));
     let near = || {
         let at = who.at?;
         let near = (0..surface.actuators.len()).filter(|a| surface.actuators[*a].at.distance(at) <= NEAR);
@@ -41,7 +58,7 @@ pub(super) fn resolved(ask: &Ask, surface: &Surface, who: &Who, from: &str) -> R
             distance(*a).total_cmp(&distance(*b))
         })
     };
-    known.or_else(near).ok_or_else(|| {
+    known.or_else(|| near().map(|actuator| (actuator, By::Place))).ok_or_else(|| {
         let all: Vec<&str> = surface.actuators.iter().map(|actuator| actuator.name.as_str()).collect();
         let found = match who.at {
             Some(at) => format!("`{}` at {at}", who.names.join("`, `")),
