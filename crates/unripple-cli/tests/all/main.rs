@@ -25,6 +25,7 @@ mod figures;
 mod fit;
 mod frequencies;
 mod import;
+mod import_faults;
 mod judged;
 mod keys;
 mod level;

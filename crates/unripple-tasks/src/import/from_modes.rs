@@ -48,6 +48,15 @@ pub(super) fn modal(
     let (points, nodes) = distinct(&found.places);
     let (most, least) = (surface.emission.band[1].min(high).min(top), surface.emission.band[0].max(low));
     let conditions = limited(surface, [least, most])?;
+    let kept = modes.len();
+    let synthesis = Synthesis::new(modes, drives, nodes, 1.0 / rate, samples);
+    // A library that is begun before this is known would be in the way of the next one.
+    if let Some((node, most)) = synthesis.beyond_single() {
+        return Err(TaskError::Input(format!(
+            "{}: node {}: expected modes whose responses single precision holds, found up to {most:e}",
+            found.from, found.names[node]
+        )));
+    }
     let told = |text| BTreeSet::from([text]);
     Ok(Assembled {
         points,
@@ -57,9 +66,9 @@ pub(super) fn modal(
         quantities: told("displacement"),
         per: told("N"),
         lowest: None,
-        modes: Some(modes.len()),
+        modes: Some(kept),
         left_out,
-        rows: Rows::Modal(Synthesis::new(modes, drives, nodes, 1.0 / rate, samples)),
+        rows: Rows::Modal(synthesis),
     })
 }
 

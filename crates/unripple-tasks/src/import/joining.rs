@@ -108,6 +108,11 @@ impl Joining<'_> {
         }
         let settled = settle(self.ask, &says, &signal, unit(&self.surface.actuators[actuator].kind), &from)?;
         let mut converted = self.converter.convert(&signal, &settled, sign, &from)?;
+        if let Some(value) = converted.values.iter().find(|value| !(**value as f32).is_finite()) {
+            return Err(TaskError::Input(format!(
+                "{from}: expected values that single precision holds, found {value:e}"
+            )));
+        }
         if let Some(length) = self.ask.length_s {
             converted.values.resize(window_samples(length, self.surface.emission.rate) + 1, 0.0);
         }

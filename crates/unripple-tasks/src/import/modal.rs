@@ -64,6 +64,31 @@ impl Synthesis {
         Self { modes, drives, points, step, samples }
     }
 
+    /// The first node at which responses could be beyond single precision, and what they could reach there, in m/s per unit of drive and second.
+    pub fn beyond_single(&self) -> Option<(usize, f64)> {
+        for node in &self.points {
+            for (driven, factor) in self.drives.iter().flatten() {
+                let reached = self.modes.iter().map(|mode| {
+                    // Growing modes are largest at the end.
+                    let growth = (mode.eigenvalue.re * self.step * self.samples as f64).exp().max(1.0);
+                    growth * Self::start(mode, *node, *driven, *factor).norm()
+                });
+                let most: f64 = reached.sum();
+                if !(most as f32).is_finite() {
+                    return Some((*node, most));
+                }
+            }
+        }
+        None
+    }
+
+    /// Velocity of a mode at time 0, with its conjugate's: its real part is the response.
+    fn start(mode: &Mode, node: usize, driven: usize, factor: f64) -> Complex {
+        let residue = mode.shape[node] * mode.shape[driven] / mode.scale;
+        // Each mode and its conjugate, which make twice the real part.
+        residue * mode.eigenvalue * (2.0 * factor)
+    }
+
     /// Responses of a point, actuators x samples, in m/s per unit of drive and second.
     pub fn row(&self, point: usize) -> Vec<f32> {
         let node = self.points[point];
@@ -83,9 +108,7 @@ impl Synthesis {
         let mut sum = vec![0.0; self.samples];
         for mode in &self.modes {
             let turn = (mode.eigenvalue * self.step).exp();
-            let residue = mode.shape[node] * mode.shape[driven] / mode.scale;
-            // Each mode and its conjugate, which make twice the real part.
-            let mut velocity = residue * mode.eigenvalue * (2.0 * factor);
+            let mut velocity = Self::start(mode, node, driven, factor);
             for sample in &mut sum {
                 *sample += velocity.re;
                 velocity *= turn;
