@@ -37,3 +37,24 @@ fn values_beyond_single_precision_leave_no_library() {
     assert!(error.contains("modes.csv: node 1: expected modes whose responses single precision"), "{error}");
     json(&words(&surface, &modes("1"), &out, &["--length-ms", "20"]));
 }
+
+/// A surface, and a universal file of a computed library of 4 points on it.
+fn universal(scratch: &Scratch) -> (String, String) {
+    let (surface, library) = (scratch.file("film.toml", SMALL_FILM), scratch.join("film"));
+    json(&["respond", &surface, "--grid-mm", "50", "--length-ms", "20", "-o", &library]);
+    let file = scratch.join("film.uff");
+    json(&["export", &library, "-o", &file]);
+    (surface, file)
+}
+
+#[test]
+fn a_label_that_is_not_understood_is_asked_about() {
+    let scratch = Scratch::new("import-label");
+    let (surface, file) = universal(&scratch);
+    let text = std::fs::read_to_string(&file).unwrap();
+    let (file, out) = (scratch.file("odd.uff", text.replace("m/s ", "ips ")), scratch.join("out"));
+    let error = refused(&words(&surface, &file, &out, &[]), 2);
+    assert!(error.contains("--unit: expected the unit of what was measured"), "{error}");
+    assert!(error.contains("the label `ips`"), "{error}");
+    json(&words(&surface, &file, &out, &["--unit", "in/s"]));
+}

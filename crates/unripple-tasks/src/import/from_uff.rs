@@ -46,7 +46,7 @@ pub(super) fn read(bytes: &[u8], file: &str, labels: &Labels, found: &mut Found)
             directions += 1;
             continue;
         };
-        found.responses.push(measured(function, kind, sign, file, &nodes)?);
+        found.responses.push(measured(function, kind, sign, file, &nodes, labels)?);
     }
     for (count, why) in
         [(kinds, "functions of other kinds"), (directions, "functions in other directions than z")]
@@ -81,8 +81,15 @@ fn measured(
     sign: f64,
     file: &str,
     nodes: &Nodes<'_>,
+    labels: &Labels,
 ) -> Result<Measured, TaskError> {
     let from = format!("{file}: dataset {}", function.dataset);
+    let unit = &function.numerator.unit;
+    // What a label means that is not understood is not what dataset 164 says.
+    if !unit.is_empty() && !labels.have_unit() && units::response(unit).is_none() {
+        let expected = "the unit of what was measured, such as m/s, mm/s, um, m/s2 or g";
+        return Err(TaskError::ask("unit", expected, format!("none, and the label `{unit}` ({from})")));
+    }
     let refused =
         |expected: &str, found: &str| TaskError::Input(format!("{from}: expected {expected}, found {found}"));
     let (start, step) = (function.start, function.step);

@@ -30,6 +30,8 @@ pub(super) struct Labels {
     offset: [f64; 2],
     /// Whether the request says that references are forces in newtons.
     newtons: bool,
+    /// Whether the request says the unit of what was measured.
+    unit: bool,
 }
 
 /// Names of the first column of a table.
@@ -44,7 +46,8 @@ impl Labels {
         let length = ask.length_unit.as_deref().map(asked_length).transpose()?;
         let pattern = ask.pattern.as_deref().map(Pattern::of).transpose()?;
         let newtons = ask.per == Some(Per::Newton);
-        let mut labels = Self { table: BTreeMap::new(), pattern, length, offset: ask.offset_m, newtons };
+        let (offset, unit) = (ask.offset_m, ask.unit.is_some());
+        let mut labels = Self { table: BTreeMap::new(), pattern, length, offset, newtons, unit };
         if let Some(path) = &ask.table {
             let bytes = bytes(path)?;
             labels.add(&bytes, &path.display().to_string())?;
@@ -60,6 +63,11 @@ impl Labels {
     /// Whether the request says that forces are in newtons.
     pub fn in_newtons(&self) -> bool {
         self.newtons
+    }
+
+    /// Whether the request says the unit of what was measured.
+    pub fn have_unit(&self) -> bool {
+        self.unit
     }
 
     /// A place in m, with what the request adds.

@@ -8,12 +8,14 @@ use crate::TaskError;
 const GRAVITY: f64 = 9.80665;
 
 /// Lengths by the names of their units, in m.
-const LENGTHS: [(&str, f64); 8] = [
+const LENGTHS: [(&str, f64); 9] = [
     ("m", 1.0),
     ("cm", 1e-2),
     ("mm", 1e-3),
     ("um", 1e-6),
-    ("µm", 1e-6),
+    // The micro sign, and the Greek letter that looks alike.
+    ("\u{b5}m", 1e-6),
+    ("\u{3bc}m", 1e-6),
     ("nm", 1e-9),
     ("in", 0.0254),
     ("ft", 0.3048),
@@ -46,7 +48,7 @@ pub(super) fn response(text: &str) -> Option<(Quantity, f64)> {
     // An exponent is no unit.
     let (number, unit) = match unit.strip_prefix('e').filter(|_| !number.is_empty()) {
         Some(rest) => {
-            let end = rest.find(|c: char| c.is_alphabetic() || c == 'µ')?;
+            let end = rest.find(|c: char| c.is_alphabetic())?;
             (format!("{number}e{}", &rest[..end]), &rest[end..])
         }
         None => (number.to_owned(), unit),
@@ -54,6 +56,7 @@ pub(super) fn response(text: &str) -> Option<(Quantity, f64)> {
     let factor = if number.is_empty() { 1.0 } else { number.parse::<f64>().ok()? };
     let (quantity, si) = match unit {
         "g" | "gn" => (Quantity::Acceleration, GRAVITY),
+        "mg" => (Quantity::Acceleration, 1e-3 * GRAVITY),
         _ => match unit.split_once('/') {
             None => (Quantity::Displacement, length(unit)?),
             Some((of, "s")) => (Quantity::Velocity, length(of)?),
@@ -189,7 +192,9 @@ mod tests {
             ("g", Some((Acceleration, GRAVITY))),
             ("0.1g", Some((Acceleration, 0.1 * GRAVITY))),
             ("um", Some((Displacement, 1e-6))),
-            ("µm", Some((Displacement, 1e-6))),
+            ("\u{b5}m", Some((Displacement, 1e-6))),
+            ("2e3 \u{3bc}m/s", Some((Velocity, 2e-3))),
+            ("mg", Some((Acceleration, 1e-3 * GRAVITY))),
             ("in/s", Some((Velocity, 0.0254))),
             ("Pa", None),
             ("", None),
