@@ -43,7 +43,7 @@ pub struct ImportOptions {
     /// How names of WAV files or columns say actuator and place, as in "{actuator}_{x_mm}_{y_mm}.wav"; {any} stands for what says nothing.
     #[arg(long, value_name = "PATTERN", help_heading = heading::PLACES)]
     pub pattern: Option<String>,
-    /// Unit of the places, if the file does not say it: m, cm, mm, in.
+    /// Unit of the places, before that of the file: m, cm, mm, in.
     #[arg(long, value_name = "UNIT", help_heading = heading::PLACES)]
     pub length_unit: Option<String>,
     /// Add this to all places of the files, in mm.

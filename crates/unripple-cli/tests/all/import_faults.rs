@@ -58,3 +58,15 @@ fn a_label_that_is_not_understood_is_asked_about() {
     assert!(error.contains("the label `ips`"), "{error}");
     json(&words(&surface, &file, &out, &["--unit", "in/s"]));
 }
+
+#[test]
+fn the_unit_of_places_that_is_asked_for_goes_before_that_of_the_file() {
+    let scratch = Scratch::new("import-length");
+    let (surface, file) = universal(&scratch);
+    // In the file's metres, all points would be off the sheet of 150 mm.
+    let offset = ["--offset-mm", "149.5,100"];
+    assert!(
+        refused(&words(&surface, &file, &scratch.join("m"), &offset), 2).contains("a point on the surface")
+    );
+    json(&words(&surface, &file, &scratch.join("mm"), &[&offset[..], &["--length-unit", "mm"]].concat()));
+}

@@ -96,7 +96,7 @@ pub struct Ask {
     pub per: Option<Per>,
     /// Drive of the actuators, in their own unit, for one unit of the reference: 2 if a volt makes 2 N.
     pub drive_per_reference: Option<f64>,
-    /// Unit of the places, such as `mm`, if the file does not say it.
+    /// Unit of the places, such as `mm`; goes before that of the file.
     pub length_unit: Option<String>,
     /// What is added to the places of the files, in m.
     pub offset_m: Place,

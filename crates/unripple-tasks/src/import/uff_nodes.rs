@@ -40,7 +40,8 @@ impl<'a> Nodes<'a> {
         }
         flat(&at, file)?;
         let units = uff.units.as_ref().map(|units| (1.0 / units.length, 1.0 / units.force));
-        let length = units.map(|(metres, _)| metres).or(labels.length());
+        // Options go first.
+        let length = labels.length().or(units.map(|(metres, _)| metres));
         let at = at.into_iter().map(|(label, [x, y, _])| (label, [x, y])).collect();
         Ok(Self { at, length, labels, file, units })
     }
