@@ -24,6 +24,7 @@ mod error;
 mod mat;
 mod npy;
 mod npz;
+mod room;
 mod uff;
 mod zip;
 

@@ -3,7 +3,8 @@
 use crate::arrays::{product, turned};
 use crate::bytes::{Bytes, Order};
 use crate::error::shown;
-use crate::{Array, ExchangeError, Values};
+use crate::room::{self, Room};
+use crate::{Array, ExchangeError, Place, Values};
 
 /// First bytes of an array of numpy.
 const MAGIC: &[u8] = b"\x93NUMPY";
@@ -22,9 +23,10 @@ struct Header {
     shape: Vec<usize>,
 }
 
-/// Reads an array; `name` is that of the file and of the array in messages.
-pub(crate) fn read(bytes: &[u8], name: &str) -> Result<Array, ExchangeError> {
-    let mut bytes = Bytes::of(bytes, 0, name);
+/// Reads an array of a name in a file, whose room it takes.
+pub(crate) fn read(bytes: &[u8], name: &str, room: &mut Room<'_>) -> Result<Array, ExchangeError> {
+    let place = format!("{}: `{name}`", room.file);
+    let mut bytes = Bytes::of(bytes, 0, &place);
     let magic = bytes.take(8, "an array of numpy")?;
     if !magic.starts_with(MAGIC) {
         return Err(bytes.refused("an array of numpy", shown(&magic[..6])));
@@ -49,6 +51,12 @@ pub(crate) fn read(bytes: &[u8], name: &str) -> Result<Array, ExchangeError> {
     if each == 0 && count > length {
         return Err(bytes.refused("texts with letters", format!("{count} without")));
     }
+    let kept = match header.kind {
+        b'c' => 2 * room::NUMBER,
+        b'U' | b'S' => room::TEXT,
+        _ => room::NUMBER,
+    };
+    room.take(count, kept, Place::Named(name.to_owned()))?;
     let values = values(&header, bytes.take(wanted, "values")?, count);
     Ok(Array { values: ordered(&header, values), shape: header.shape })
 }

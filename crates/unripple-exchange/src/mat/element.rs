@@ -1,7 +1,8 @@
 //! Data elements of a MATLAB file: a type, a size, and as many bytes.
 
-use crate::ExchangeError;
 use crate::bytes::{Bytes, Order};
+use crate::room::{self, Room};
+use crate::{ExchangeError, Place};
 
 /// Types of elements: an array with its description, and one that is compressed.
 pub(super) const MATRIX: u32 = 14;
@@ -71,8 +72,10 @@ impl<'a> Element<'a> {
         })
     }
 
-    /// Its numbers; `None` if it holds none.
-    pub fn numbers(&self, order: Order) -> Option<Vec<f64>> {
+    /// Its numbers, for which there must be room; none if it holds none.
+    pub fn numbers(&self, order: Order, room: &mut Room<'_>) -> Result<Vec<f64>, ExchangeError> {
+        let Some(size) = self.size() else { return Ok(Vec::new()) };
+        room.take(self.bytes.len() / size, room::NUMBER, Place::Byte(self.at))?;
         let kind = self.kind;
         let number = move |bytes: &[u8]| match kind {
             INT8 => f64::from(bytes[0] as i8),
@@ -86,15 +89,16 @@ impl<'a> Element<'a> {
             UINT64 => order.u64(bytes) as f64,
             _ => f64::from(order.u32(bytes)),
         };
-        Some(self.bytes.chunks_exact(self.size()?).map(number).collect())
+        Ok(self.bytes.chunks_exact(size).map(number).collect())
     }
 
-    /// Its letters, one for each number, or more for a text in UTF-8; `None` if it holds none.
-    pub fn letters(&self, order: Order) -> Option<Vec<char>> {
+    /// Its letters, one for each number, or more for a text in UTF-8, for which there must be room; none if it holds none.
+    pub fn letters(&self, order: Order, room: &mut Room<'_>) -> Result<Vec<char>, ExchangeError> {
         if self.kind == UTF8 {
-            return Some(String::from_utf8_lossy(self.bytes).chars().collect());
+            room.take(self.bytes.len(), room::LETTER, Place::Byte(self.at))?;
+            return Ok(String::from_utf8_lossy(self.bytes).chars().collect());
         }
         let letter = |number: f64| char::from_u32(number as u32).unwrap_or(char::REPLACEMENT_CHARACTER);
-        Some(self.numbers(order)?.into_iter().map(letter).collect())
+        Ok(self.numbers(order, room)?.into_iter().map(letter).collect())
     }
 }

@@ -3,6 +3,7 @@
 use super::element::{Element, MATRIX};
 use crate::arrays::{product, turned};
 use crate::bytes::{Bytes, Order};
+use crate::room::{self, Room};
 use crate::{Array, ExchangeError, Place, Values};
 
 /// Classes of arrays: lists of arrays, texts, and numbers from the first to the last.
@@ -18,38 +19,41 @@ const COMPLEX: u32 = 0x0800;
 pub(super) fn read(
     element: Element<'_>,
     order: Order,
-    file: &str,
     depth: usize,
+    room: &mut Room<'_>,
 ) -> Result<Option<(String, Array)>, ExchangeError> {
-    let mut parts = Bytes::of(element.bytes, element.at, file);
+    let mut parts = Bytes::of(element.bytes, element.at, room.file);
     // An array of nothing, as in a list that was never filled.
     if parts.left() == 0 {
         return Ok(None);
     }
     let flags = Element::next(&mut parts, order)?;
     let flags = order.u32(flags.bytes);
-    let shape = shape(Element::next(&mut parts, order)?, order, file)?;
-    let name = Element::next(&mut parts, order)?.letters(order).unwrap_or_default();
+    let shape = shape(Element::next(&mut parts, order)?, order, room)?;
+    let name = Element::next(&mut parts, order)?.letters(order, room)?;
     let name: String = name.into_iter().filter(|letter| *letter != '\0').collect();
     let array = match flags & 0xff {
-        CHAR => Some(text(&mut parts, &shape, order)?),
-        CELL if depth == 0 => texts(&mut parts, &shape, order)?,
-        FIRST_NUMBER..=LAST_NUMBER => Some(numbers(&mut parts, shape, flags & COMPLEX != 0, order, &name)?),
+        CHAR => Some(text(&mut parts, &shape, order, room)?),
+        CELL if depth == 0 => texts(&mut parts, &shape, order, room)?,
+        FIRST_NUMBER..=LAST_NUMBER => {
+            let complex = flags & COMPLEX != 0;
+            Some(numbers(&mut parts, shape, complex, order, &name, room)?)
+        }
         _ => None,
     };
     Ok(array.map(|array| (name, array)))
 }
 
 /// Lengths of the axes.
-fn shape(element: Element<'_>, order: Order, file: &str) -> Result<Vec<usize>, ExchangeError> {
-    let lengths = element.numbers(order).unwrap_or_default();
+fn shape(element: Element<'_>, order: Order, room: &mut Room<'_>) -> Result<Vec<usize>, ExchangeError> {
+    let lengths = element.numbers(order, room)?;
     let shape: Vec<usize> =
         lengths.iter().filter(|length| **length >= 0.0).map(|length| *length as usize).collect();
     if shape.len() == lengths.len() && shape.len() >= 2 && product(&shape).is_some() {
         return Ok(shape);
     }
     let found = format!("{lengths:?}");
-    Err(ExchangeError::content(file, Place::Byte(element.at), "the lengths of two axes or more", found))
+    Err(ExchangeError::content(room.file, Place::Byte(element.at), "the lengths of two axes or more", found))
 }
 
 fn numbers(
@@ -58,10 +62,11 @@ fn numbers(
     complex: bool,
     order: Order,
     name: &str,
+    room: &mut Room<'_>,
 ) -> Result<Array, ExchangeError> {
     let mut part = || -> Result<Vec<f64>, ExchangeError> {
         let element = Element::next(parts, order)?;
-        let numbers = element.numbers(order).unwrap_or_default();
+        let numbers = element.numbers(order, room)?;
         if Some(numbers.len()) == product(&shape) {
             return Ok(turned(&shape, &numbers));
         }
@@ -77,10 +82,16 @@ fn numbers(
 }
 
 /// Rows of letters, each a text.
-fn text(parts: &mut Bytes<'_>, shape: &[usize], order: Order) -> Result<Array, ExchangeError> {
+fn text(
+    parts: &mut Bytes<'_>,
+    shape: &[usize],
+    order: Order,
+    room: &mut Room<'_>,
+) -> Result<Array, ExchangeError> {
     let element = Element::next(parts, order)?;
-    let letters = element.letters(order).unwrap_or_default();
+    let letters = element.letters(order, room)?;
     let rows = shape[0];
+    room.take(rows.min(letters.len()), room::TEXT, Place::Byte(element.at))?;
     // One text, of letters that may take several bytes each.
     if rows <= 1 {
         return Ok(Array::texts(vec![letters.into_iter().collect()]));
@@ -94,14 +105,19 @@ fn text(parts: &mut Bytes<'_>, shape: &[usize], order: Order) -> Result<Array, E
 }
 
 /// A list of texts; `None` if there is anything else in it.
-fn texts(parts: &mut Bytes<'_>, shape: &[usize], order: Order) -> Result<Option<Array>, ExchangeError> {
+fn texts(
+    parts: &mut Bytes<'_>,
+    shape: &[usize],
+    order: Order,
+    room: &mut Room<'_>,
+) -> Result<Option<Array>, ExchangeError> {
     let mut texts = Vec::new();
     for _ in 0..product(shape).unwrap_or(0) {
         let element = Element::next(parts, order)?;
         if element.kind != MATRIX {
             return Err(parts.refused("an array in a list", format!("type {}", element.kind)));
         }
-        match read(element, order, parts.file, 1)? {
+        match read(element, order, 1, room)? {
             Some((_, Array { values: Values::Text(mut text), .. })) if text.len() == 1 => {
                 texts.append(&mut text);
             }

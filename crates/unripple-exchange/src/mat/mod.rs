@@ -6,6 +6,7 @@ mod write;
 
 use crate::bytes::{Bytes, Order};
 use crate::error::shown;
+use crate::room::Room;
 use crate::{Arrays, ExchangeError, Place};
 use element::{Element, MATRIX, PACKED};
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
@@ -22,11 +23,12 @@ const MOST_RATIO: usize = 1032;
 /// Reads the variables of a MATLAB file: numbers, texts, and lists of texts. Variables of other classes, such as structures, are left out.
 ///
 /// # Errors
-/// [`ExchangeError::Content`] with the byte at fault: a file of another version, cut short, or damaged.
+/// [`ExchangeError::Content`] with the byte at fault: a file of another version, cut short, or damaged; and arrays
+/// that would take more memory than 1032 times the file, or 4 GiB.
 pub fn read_mat(bytes: &[u8], file: &str) -> Result<Arrays, ExchangeError> {
     let order = order(bytes, file)?;
     let mut rest = Bytes::of(&bytes[HEADER..], HEADER, file);
-    let mut arrays = Arrays::new();
+    let (mut arrays, mut room) = (Arrays::new(), Room::of(bytes.len(), file));
     while rest.left() > 0 {
         let element = Element::next(&mut rest, order)?;
         let unpacked;
@@ -45,7 +47,7 @@ pub fn read_mat(bytes: &[u8], file: &str) -> Result<Arrays, ExchangeError> {
         if element.kind != MATRIX {
             continue;
         }
-        if let Some((name, array)) = matrix::read(element, order, file, 0)? {
+        if let Some((name, array)) = matrix::read(element, order, 0, &mut room)? {
             arrays.insert(name, array);
         }
     }

@@ -145,3 +145,23 @@ fn faults_of_matlab_files_are_named() {
     claimed[at..at + 4].copy_from_slice(&10_000_000_i32.to_le_bytes());
     assert!(refused(&claimed).contains("as many numbers as the shape [10000000, 3] of `a` has, found 3"));
 }
+
+#[test]
+fn numbers_of_one_byte_take_no_more_memory_than_the_file_allows() {
+    let zeros = vec![0; 1 << 20];
+    let file = zip(&[("a.npy", npy("|u1", false, "(1048576,)", &zeros))], true);
+    let error = refused(&file);
+    let wanted = format!("t.npz: `a`: expected arrays of at most {} bytes in memory", 1032 * file.len());
+    assert!(error.starts_with(&wanted) && error.contains("found 8388608 bytes more"), "{error}");
+    // The same as numbers of MATLAB: flags, lengths of the axes, a name of one letter, and bytes.
+    let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+    let size = zeros.len() as u32;
+    let parts = words(&[6, 8, 9, 0, 5, 8, 1, size, 0x1_0001, u32::from(b'a'), 2, size]);
+    let element = [words(&[14, parts.len() as u32 + size]), parts, zeros].concat();
+    let packed = compress_to_vec_zlib(&element, 6);
+    let header = write_mat(&Arrays::new()).unwrap();
+    let file = [&header[..128], &words(&[15, packed.len() as u32]), &packed].concat();
+    let error = read_mat(&file, "t.mat").unwrap_err().to_string();
+    let wanted = format!("expected arrays of at most {} bytes in memory", 1032 * file.len());
+    assert!(error.contains(&wanted), "{error}");
+}
