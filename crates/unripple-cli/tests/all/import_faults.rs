@@ -70,3 +70,20 @@ fn the_unit_of_places_that_is_asked_for_goes_before_that_of_the_file() {
     );
     json(&words(&surface, &file, &scratch.join("mm"), &[&offset[..], &["--length-unit", "mm"]].concat()));
 }
+
+#[test]
+fn what_no_response_would_use_is_refused() {
+    let scratch = Scratch::new("import-unused");
+    let (surface, file) = universal(&scratch);
+    let out = scratch.join("out");
+    let error = refused(&words(&surface, &file, &out, &["--actuator", "a1=99"]), 2);
+    assert!(error.contains("--actuator: expected a name or node in the files for a1, found `99`"), "{error}");
+    let folder = scratch.join("wav");
+    json(&["export", &scratch.join("film"), "-o", &folder]);
+    let table = scratch.file("places.csv", "file,actuator,x_mm,y_mm\n");
+    for more in [["--table", &table], ["--pattern", "{actuator}.wav"], ["--length-unit", "mm"]] {
+        let error = refused(&words(&surface, &folder, &out, &more), 2);
+        assert!(error.contains(&format!("{}: expected none, since folders", more[0])), "{error}");
+    }
+    json(&words(&surface, &folder, &out, &[]));
+}

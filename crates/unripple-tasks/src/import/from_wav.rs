@@ -13,11 +13,15 @@ use unripple_store::read_wav;
 /// The file beside WAV files that `export` has written.
 const INDEX: &str = "library.json";
 
+/// Whether a folder is one that `export` has written, which says actuators and places itself.
+pub(super) fn is_exported(path: &Path) -> bool {
+    path.join(INDEX).is_file()
+}
+
 /// Reads the WAV files of a folder.
 pub(super) fn folder(path: &Path, labels: &Labels, found: &mut Found) -> Result<(), TaskError> {
-    let index = path.join(INDEX);
-    if index.is_file() {
-        return exported(path, &index, labels, found);
+    if is_exported(path) {
+        return exported(path, &path.join(INDEX), labels, found);
     }
     let refused = |error: std::io::Error| TaskError::Input(format!("{}: {error}", path.display()));
     let mut files = Vec::new();

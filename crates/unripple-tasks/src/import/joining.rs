@@ -18,7 +18,8 @@ const LISTED: usize = 3;
 /// Joins what was read to the surface.
 ///
 /// # Errors
-/// [`TaskError::Input`] of an actuator or a place that is not the surface's, of responses that are there twice, not there, or of other lengths;
+/// [`TaskError::Ask`] of names that no response has; [`TaskError::Input`] of an actuator or a place that is not the surface's, of responses
+/// that are there twice, not there, or of other lengths;
 /// those of [`settle`] and [`Converter::convert`]; [`TaskError::Cancelled`].
 pub(super) fn assembled(
     ask: &Ask,
@@ -26,6 +27,7 @@ pub(super) fn assembled(
     mut found: Found,
     progress: &mut dyn Progress,
 ) -> Result<Assembled, TaskError> {
+    names_are_used(ask, &found)?;
     match (found.responses.is_empty(), found.modes.pop()) {
         (false, None) => responses(ask, surface, found, progress),
         (true, Some(modes)) if found.modes.is_empty() => {
@@ -42,6 +44,21 @@ pub(super) fn assembled(
             let left = found.left_out.join("; ");
             Err(TaskError::Input(format!("expected responses or modes, found none ({left})")))
         }
+    }
+}
+
+/// Refuses names of actuators that no response and no node has.
+fn names_are_used(ask: &Ask, found: &Found) -> Result<(), TaskError> {
+    let is_used = |other: &String| {
+        found.responses.iter().any(|measured| measured.who.names.contains(other))
+            || found.modes.iter().any(|modes| modes.names.contains(other))
+    };
+    match ask.actuator_names.iter().find(|(_, other)| !is_used(other)) {
+        Some((name, other)) => {
+            let expected = format!("a name or node in the files for {name}");
+            Err(TaskError::ask("actuator_names", expected, format!("`{other}`, which no response is to")))
+        }
+        None => Ok(()),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Reads files of other programs, and writes a library of responses.
 
 use super::assembled::Assembled;
+use super::from_wav::is_exported;
 use super::joining::assembled;
 use super::labels::Labels;
 use super::{Ask, Report, read};
@@ -50,6 +51,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let surface = ask.surface.load()?;
     let record = Record::of(ask)?;
     check(ask, &surface)?;
+    unused(ask)?;
     Library::may_be_at(&ask.output)?;
     go_on(progress)?;
     progress.stage("files");
@@ -106,6 +108,23 @@ fn check(ask: &Ask, surface: &Surface) -> Result<(), TaskError> {
     match ask.without.len() < surface.actuators.len() {
         true => Ok(()),
         false => Err(TaskError::ask("without", "an actuator that is left", "all of them")),
+    }
+}
+
+/// Refuses what says actuators and places beside folders alone that say them themselves.
+fn unused(ask: &Ask) -> Result<(), TaskError> {
+    let given = [
+        ("table", ask.table.as_ref().map(|path| path.display().to_string())),
+        ("pattern", ask.pattern.clone()),
+        ("length_unit", ask.length_unit.clone()),
+    ];
+    let given = given.into_iter().find_map(|(field, text)| text.map(|text| (field, text)));
+    match given.filter(|_| ask.files.iter().all(|path| is_exported(path))) {
+        Some((field, text)) => {
+            let expected = "none, since folders that `export` wrote say actuators and places in m";
+            Err(TaskError::ask(field, expected, format!("`{text}`")))
+        }
+        None => Ok(()),
     }
 }
 
