@@ -64,7 +64,8 @@ impl Synthesis {
         Self { modes, drives, points, step, samples }
     }
 
-    /// The first node at which responses could be beyond single precision, and what they could reach there, in m/s per unit of drive and second.
+    /// The first node at which responses could be beyond single precision, and what they could reach there, in m/s per unit of drive and
+    /// second.
     pub fn beyond_single(&self) -> Option<(usize, f64)> {
         for node in &self.points {
             for (driven, factor) in self.drives.iter().flatten() {
