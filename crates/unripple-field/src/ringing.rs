@@ -37,8 +37,8 @@ impl<'a> Ringing<'a> {
         moved + velocity.iter().zip(velocities).map(|(v, weight)| v * weight).sum::<f64>()
     }
 
-    /// The square of the signal's rate of change in the same state, as it is and A-weighted. The A-weighting is that of each mode's
-    /// frequency, without the phase of a filter.
+    /// The square of the signal's rate of change in the same state, as it is and A-weighted, in the signal's unit squared per s². The
+    /// A-weighting is that of each mode's frequency, without the phase of a filter.
     pub fn squares(&self, displacement: &[f64], velocity: &[f64]) -> [f64; 2] {
         let parts = self.parts(displacement, velocity);
         let [plain, heard] = parts
