@@ -28,8 +28,10 @@ fn nodes_of_both_datasets_and_units_are_read() {
             "  2.73149999999999977D+02",
         ],
     );
-    let old =
-        dataset("15", &["         1         0         0         8  1.20000E+01  3.10000E+01  0.00000E+00"]);
+    let old = dataset(
+        "15",
+        &["         1         0         0         8  1.20000E+01  3.10000E+01  0.00000E+00"],
+    );
     let new = dataset(
         "2411",
         &[
@@ -54,7 +56,7 @@ fn nodes_of_both_datasets_and_units_are_read() {
 
 #[test]
 fn a_function_says_what_it_is() {
-    let text = function(&head(5, 2, 1, 0.0, 2.5), &[" 1.00000E+00 2.00000E+00-3.00000E+00 4.00000E+00"]);
+    let text = function(&head(5, 2, 1, 0.0, 2.5), &["  1.00000E+00  2.00000E+00 -3.00000E+00  4.00000E+00"]);
     let uff = read(&text);
     let f = &uff.functions[0];
     assert_eq!((f.kind, f.start, f.step, f.complex), (4, 0.0, 2.5, true));
@@ -68,7 +70,7 @@ fn a_function_says_what_it_is() {
 
 #[test]
 fn every_form_of_text_is_read() {
-    let real_single: &[&str] = &[" 1.00000E+00 2.00000E+00 3.00000E+00"];
+    let real_single: &[&str] = &["  1.00000E+00  2.00000E+00  3.00000E+00"];
     let real_double: &[&str] = &["  1.000000000000E+00  2.000000000000E+00  3.000000000000E+00"];
     let complex_double: &[&str] = &[
         "  1.000000000000E+00  2.000000000000E+00  3.000000000000D+00  4.000000000000E+00",
@@ -82,15 +84,15 @@ fn every_form_of_text_is_read() {
         (
             2,
             0,
-            &[" 0.00000E+00 1.00000E+00 5.00000E-01 2.00000E+00 1.00000E+00 3.00000E+00"],
+            &["  0.00000E+00  1.00000E+00  5.00000E-01  2.00000E+00  1.00000E+00  3.00000E+00"],
             vec![1.0, 2.0, 3.0],
         ),
         (
             5,
             0,
             &[
-                " 0.00000E+00 1.00000E+00 2.00000E+00 5.00000E-01 3.00000E+00 4.00000E+00",
-                " 1.00000E+00 5.00000E+00 6.00000E+00",
+                "  0.00000E+00  1.00000E+00  2.00000E+00  5.00000E-01  3.00000E+00  4.00000E+00",
+                "  1.00000E+00  5.00000E+00  6.00000E+00",
             ],
             vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
         ),
@@ -98,8 +100,8 @@ fn every_form_of_text_is_read() {
             4,
             0,
             &[
-                " 0.00000E+00  1.000000000000E+00 5.00000E-01  2.000000000000E+00",
-                " 1.00000E+00  3.000000000000E+00",
+                "  0.00000E+00  1.000000000000E+00  5.00000E-01  2.000000000000E+00",
+                "  1.00000E+00  3.000000000000E+00",
             ],
             vec![1.0, 2.0, 3.0],
         ),
@@ -107,9 +109,9 @@ fn every_form_of_text_is_read() {
             6,
             0,
             &[
-                " 0.00000E+00  1.000000000000E+00  2.000000000000E+00",
-                " 5.00000E-01  3.000000000000E+00  4.000000000000E+00",
-                " 1.00000E+00  5.000000000000E+00  6.000000000000E+00",
+                "  0.00000E+00  1.000000000000E+00  2.000000000000E+00",
+                "  5.00000E-01  3.000000000000E+00  4.000000000000E+00",
+                "  1.00000E+00  5.000000000000E+00  6.000000000000E+00",
             ],
             vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
         ),
@@ -169,7 +171,7 @@ fn a_binary_function_may_hold_anything_that_looks_like_a_mark() {
 
 #[test]
 fn odd_files_are_read() {
-    let text = function(&head(2, 3, 1, 0.0, 0.5), &[" 1.00000E+00 2.00000E+00 3.00000E+00"]);
+    let text = function(&head(2, 3, 1, 0.0, 0.5), &["  1.00000E+00  2.00000E+00  3.00000E+00"]);
     let wanted = read(&text);
     // Padded to 80 columns, with other ends of lines, without the last of them, with blank lines and a mark too many.
     let padded: String = text.lines().map(|line| format!("{line:<80}\r\n")).collect();
@@ -184,19 +186,19 @@ fn odd_files_are_read() {
 
 #[test]
 fn uneven_abscissae_are_refused_by_name() {
-    let line = " 0.00000E+00 1.00000E+00 5.00000E-01 2.00000E+00 1.50000E+00 3.00000E+00";
+    let line = "  0.00000E+00  1.00000E+00  5.00000E-01  2.00000E+00  1.50000E+00  3.00000E+00";
     let error = refused(function(&head(2, 3, 0, 0.0, 0.0), &[line]).as_bytes());
     assert!(error.contains("dataset 1, line 9: expected an even abscissa"), "{error}");
     assert!(error.contains("found an uneven one: 0.5 as number 2"), "{error}");
     // Six digits make steps of 1/3 uneven in the last one.
-    let line = " 0.00000E+00 1.00000E+00 3.33333E-01 2.00000E+00 6.66667E-01 3.00000E+00";
+    let line = "  0.00000E+00  1.00000E+00  3.33333E-01  2.00000E+00  6.66667E-01  3.00000E+00";
     let f = &read(&function(&head(2, 3, 0, 0.0, 0.0), &[line])).functions[0];
     assert!((f.step - 1.0 / 3.0).abs() < 1e-6);
 }
 
 #[test]
 fn faults_are_named_by_dataset_and_line() {
-    let good = " 1.00000E+00 2.00000E+00 3.00000E+00";
+    let good = "  1.00000E+00  2.00000E+00  3.00000E+00";
     let of = |head: &[String], lines: &[&str]| refused(function(head, lines).as_bytes());
     let plain = head(2, 3, 1, 0.0, 0.5);
     let changed = |at: usize, line: &str| {
@@ -206,12 +208,12 @@ fn faults_are_named_by_dataset_and_line() {
     };
     for (error, part) in [
         (
-            of(&plain, &[" 1.00000E+00          NaN 3.00000E+00"]),
+            of(&plain, &["  1.00000E+00          NaN  3.00000E+00"]),
             "line 14: expected a value, a finite number, found `NaN`",
         ),
-        (of(&plain, &[" 1.00000E+00 2.00000E+00"]), "line 14: expected a value, a finite number, found ``"),
+        (of(&plain, &["  1.00000E+00  2.00000E+00"]), "line 14: expected a value, a finite number, found ``"),
         (of(&plain, &[good, good]), "line 15: expected -1 at the end of the dataset"),
-        (of(&plain, &[&format!("{good} 4.00000E+00")]), "line 14: expected values in 39 columns"),
+        (of(&plain, &[&format!("{good}  4.00000E+00")]), "line 14: expected values in 39 columns"),
         (of(&head(2, 10_000_000, 1, 0.0, 0.5), &[good]), "expected 10000000 values, found"),
         (of(&head(2, 30, 1, 0.0, 0.5), &[good]), "found"),
         (of(&head(2, 0, 1, 0.0, 0.5), &[good]), "line 9: expected the number of values, from 1 up"),
@@ -241,7 +243,7 @@ fn faults_are_named_by_dataset_and_line() {
 fn files_that_are_cut_short_are_refused_wherever_that_is() {
     let text = function(
         &head(5, 3, 1, 0.0, 0.5),
-        &[" 1.00000E+00 2.00000E+00 3.00000E+00 4.00000E+00 5.00000E+00 6.00000E+00"],
+        &["  1.00000E+00  2.00000E+00  3.00000E+00  4.00000E+00  5.00000E+00  6.00000E+00"],
     );
     let marked = text.trim_end().len();
     for end in 7..marked - 1 {
@@ -255,7 +257,7 @@ fn files_that_are_cut_short_are_refused_wherever_that_is() {
 #[test]
 fn what_is_written_is_read_again() {
     let third = 1.0 / 3.0;
-    let text = function(&head(5, 2, 1, 0.0, 2.5), &[" 1.00000E+00 2.00000E+00-3.00000E+00 4.00000E+00"]);
+    let text = function(&head(5, 2, 1, 0.0, 2.5), &["  1.00000E+00  2.00000E+00 -3.00000E+00  4.00000E+00"]);
     let mut uff = read(&text);
     let pair = format!("{:<25}{:<25}", "1.0D0", "1.0D0");
     uff.units = read(&dataset("164", &["         1SI                           2", &pair, "0.0D0"])).units;
