@@ -202,6 +202,7 @@ fn a_page_takes_back_its_own_edits_and_those_of_pages_that_have_gone() {
     for (page, tension) in [(1, 150), (2, 160), (1, 170)] {
         hear(&mut session, page, &format!(r#"{{"do":"edit","tension_n_per_m":{tension}}}"#));
     }
+    session.renew();
     let mut undo = |page: u64, gone: Option<u64>| {
         gone.into_iter().for_each(|gone| session.leave(gone));
         session.take();
