@@ -167,7 +167,7 @@ def test_names_stay_or_all_do() -> None:
         ({"mounting_mm": -1}, "mounting_mm"),
         ({"tension_percent": 60}, "tension_percent"),
         ({"window_ms": -1}, "window_ms"),
-        ({"place": [(10, 20)]}, "place, grid_mm, rim_mm"),
+        ({"place": [(10, 20)]}, "place, grid_mm, rim_mm, within, keep_out"),
     ],
 )
 def test_errors_name_what_was_typed(film: ur.Surface, options: dict[str, Any], field: str) -> None:
