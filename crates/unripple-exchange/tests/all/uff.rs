@@ -28,10 +28,8 @@ fn nodes_of_both_datasets_and_units_are_read() {
             "  2.73149999999999977D+02",
         ],
     );
-    let old = dataset(
-        "15",
-        &["         1         0         0         8  1.20000E+01  3.10000E+01  0.00000E+00"],
-    );
+    let old =
+        dataset("15", &["         1         0         0         8  1.20000E+01  3.10000E+01  0.00000E+00"]);
     let new = dataset(
         "2411",
         &[
