@@ -277,8 +277,7 @@ fn a_universal_file_says_what_it_means_or_is_asked() {
     );
     let (_, mut words) = import("renamed", &stranger, &["--actuator", "a2=zz"]);
     json(&words.iter().map(String::as_str).collect::<Vec<_>>());
-    words[2] = file.clone();
-    words.insert(3, file.clone());
+    words.insert(3, words[2].clone());
     words[5] = scratch.join("twice");
     let twice = refused(&words.iter().map(String::as_str).collect::<Vec<_>>(), 2);
     assert!(twice.contains("expected one response of") && twice.contains("found another in"), "{twice}");
