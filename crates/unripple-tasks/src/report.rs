@@ -1,6 +1,7 @@
 //! The trait of all reports.
 
 use serde::Serialize;
+use unripple::act::Note;
 
 /// The JSON schema (draft 2020-12) of the reports of all commands, with the records of their runs, for programs and editors that read them.
 pub const REPORT_SCHEMA: &str = include_str!("../schema/report-1.json");
@@ -19,4 +20,20 @@ pub trait Report: Serialize {
     fn failure(&self) -> Option<String> {
         None
     }
+}
+
+/// A report as Markdown: its heading, its lines of text, and of `pictures`, names of files with what they show, those among `files`.
+pub(crate) fn markdown(heading: &str, text: &str, files: &[String], pictures: &[(&str, &str)]) -> String {
+    let mut all = format!("# {heading}\n\n```text\n{text}```\n");
+    for (file, what) in pictures {
+        if files.iter().any(|name| name == file) {
+            all += &format!("\n![{what}]({file})\n");
+        }
+    }
+    all
+}
+
+/// Adds notes to a text, each after an empty line.
+pub(crate) fn add_notes(text: &mut String, notes: &[Note]) {
+    notes.iter().for_each(|note| *text += &format!("\nnote ({}): {}\n", note.topic, note.text));
 }

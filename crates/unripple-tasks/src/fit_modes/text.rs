@@ -1,21 +1,17 @@
 //! The report of the task `fit_modes` as text.
 
 use super::{Report, Value};
+use crate::report::{add_notes, markdown};
 use std::fmt::Write;
 
 impl Report {
     /// The report as Markdown, with its figures.
     pub(super) fn markdown(&self) -> String {
-        let mut all = format!("# {}: fitted to frequencies\n\n```text\n{}```\n", self.surface, of(self));
-        for (file, what) in [
+        let pictures = [
             ("frequencies.png", "Measured against computed frequencies"),
             ("residuals.png", "Residuals, and the errors of a fit without each mode"),
-        ] {
-            if self.files.iter().any(|name| name == file) {
-                all += &format!("\n![{what}]({file})\n");
-            }
-        }
-        all
+        ];
+        markdown(&format!("{}: fitted to frequencies", self.surface), &of(self), &self.files, &pictures)
     }
 }
 
@@ -52,9 +48,7 @@ fn of(report: &Report) -> String {
     losses(&mut text, report);
     modes(&mut text, report);
     others(&mut text, report);
-    for note in &report.notes {
-        let _ = writeln!(text, "\nnote ({}): {}", note.topic, note.text);
-    }
+    add_notes(&mut text, &report.notes);
     text
 }
 

@@ -1,5 +1,6 @@
 //! Report of the task `listen`.
 
+use crate::report::markdown;
 use serde::Serialize;
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -103,16 +104,11 @@ impl Tone {
 impl Report {
     /// The report as Markdown, with its figures.
     pub(super) fn markdown(&self) -> String {
-        let mut all = format!("# {}\n\n```text\n{}```\n", self.recording, crate::Report::text(self));
-        for (file, what) in [
+        let pictures = [
             ("recording.png", "The recording, its hits, and the part that was used"),
             ("modes.png", "Frequencies and decay times"),
-        ] {
-            if self.files.iter().any(|name| name == file) {
-                all += &format!("\n![{what}]({file})\n");
-            }
-        }
-        all
+        ];
+        markdown(&self.recording, &crate::Report::text(self), &self.files, &pictures)
     }
 }
 

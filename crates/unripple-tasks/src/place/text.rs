@@ -2,6 +2,7 @@
 
 use super::placed::Layout;
 use super::{Report, Second};
+use crate::report::{add_notes, markdown};
 use crate::several::several;
 use crate::thinned::thinned;
 use std::fmt::Write;
@@ -9,22 +10,12 @@ use std::fmt::Write;
 impl Report {
     /// The report as Markdown, with its figures.
     pub(super) fn markdown(&self) -> String {
-        let mut all = format!(
-            "# {}: {} {}\n\n```text\n{}```\n",
-            self.surface,
-            several(self.count, "actuator"),
-            self.found(),
-            of(self)
-        );
-        for (file, what) in [
+        let heading = format!("{}: {} {}", self.surface, several(self.count, "actuator"), self.found());
+        let pictures = [
             ("places.png", "The layout, and the contrast with one more actuator at each place"),
             ("numbers.png", "Contrast against the number of actuators"),
-        ] {
-            if self.files.iter().any(|name| name == file) {
-                all += &format!("\n![{what}]({file})\n");
-            }
-        }
-        all
+        ];
+        markdown(&heading, &of(self), &self.files, &pictures)
     }
 }
 
@@ -73,9 +64,7 @@ fn of(report: &Report) -> String {
     second(&mut text, report);
     numbers(&mut text, report);
     methods(&mut text, report);
-    for note in &report.notes {
-        let _ = writeln!(text, "\nnote ({}): {}", note.topic, note.text);
-    }
+    add_notes(&mut text, &report.notes);
     text
 }
 

@@ -2,6 +2,7 @@
 
 use super::planned::below;
 use super::{Report, SensingAsk, Unknown};
+use crate::report::{add_notes, markdown};
 use crate::thinned::thinned;
 use std::fmt::Write;
 
@@ -11,18 +12,12 @@ const UNKNOWNS: usize = 24;
 impl Report {
     /// The report as Markdown, with its figures.
     pub(super) fn markdown(&self) -> String {
-        let what = named(self.sensing);
-        let mut all =
-            format!("# {}: {} {what} planned\n\n```text\n{}```\n", self.surface, self.count, of(self));
-        for (file, what) in [
+        let heading = format!("{}: {} {} planned", self.surface, self.count, named(self.sensing));
+        let pictures = [
             ("sensitivity.png", "The planned places, and the sensitivity of all"),
             ("numbers.png", "Deviations against the number of places"),
-        ] {
-            if self.files.iter().any(|name| name == file) {
-                all += &format!("\n![{what}]({file})\n");
-            }
-        }
-        all
+        ];
+        markdown(&heading, &of(self), &self.files, &pictures)
     }
 }
 
@@ -69,9 +64,7 @@ fn of(report: &Report) -> String {
     unknowns(&mut text, report);
     certificate(&mut text, report);
     numbers(&mut text, report);
-    for note in &report.notes {
-        let _ = writeln!(text, "\nnote ({}): {}", note.topic, note.text);
-    }
+    add_notes(&mut text, &report.notes);
     text
 }
 
