@@ -5,7 +5,7 @@ use crate::felt::{AllFelt, decibels, felt};
 use crate::field::bounded;
 use crate::figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
 use crate::similarity::Similarity;
-use crate::source::{Quantity, Survey, Trace};
+use crate::source::{Quantity, Survey, Trace, largest};
 use crate::spot::Spot;
 use crate::{Aim, Field, FieldError, MeasureOptions, pulse};
 use rayon::prelude::*;
@@ -357,13 +357,7 @@ fn maps(
     outside: Vec<bool>,
     instants: &[usize],
 ) -> Maps {
-    let peak = |quantity: usize| {
-        let mut peak = vec![0.0_f32; field.points().len()];
-        for pair in &survey.tallies {
-            peak.iter_mut().zip(&pair[quantity].peak).for_each(|(p, own)| *p = p.max(*own));
-        }
-        peak
-    };
+    let peak = |quantity| largest(&survey.tallies, quantity, field.points().len());
     let (peak_velocity, peak_displacement) = (peak(0), peak(1));
     let snapshots =
         instants.iter().zip(survey.snapshots).map(|(sample, values)| field.snapshot(*sample, values));

@@ -1,7 +1,7 @@
 //! How alike two images are: the structural similarity index (SSIM).
 
 use crate::Grid;
-use crate::source::Tally;
+use crate::source::{Tally, largest};
 use serde::Serialize;
 use unripple_core::Point;
 
@@ -42,11 +42,9 @@ impl Similarity {
         radius: f64,
     ) -> Option<Self> {
         let grid = grid?;
-        let [mut peak, mut squares] = [vec![0.0; grid.inside.len()], vec![0.0; grid.inside.len()]];
+        let peak: Vec<f64> = largest(tallies, 0, grid.inside.len()).into_iter().map(f64::from).collect();
+        let mut squares = vec![0.0; grid.inside.len()];
         for [velocity, _] in tallies {
-            peak.iter_mut()
-                .zip(&velocity.peak)
-                .for_each(|(most, own)| *most = f64::max(*most, (*own).into()));
             squares.iter_mut().zip(&velocity.squares).for_each(|(sum, own)| *sum += own);
         }
         Self::of(grid, [&peak, &squares], wanted, radius)
@@ -144,18 +142,12 @@ impl Moments {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use unripple_core::{Conditions, Outline, Shape};
+    use unripple_core::{Conditions, Outline, Random, Shape};
 
-    /// Values from 0 to 1 without order, the same on every run.
+    /// Values from 0 to 1 without order.
     fn noise(count: usize, seed: u64) -> Vec<f64> {
-        let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-        let mut next = || {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            state as f64 / u64::MAX as f64
-        };
-        (0..count).map(|_| next()).collect()
+        let mut random = Random::seeded(seed);
+        (0..count).map(|_| random.uniform()).collect()
     }
 
     /// The lines of `structural_similarity` of scikit-image 0.25, with means over windows in the place of its `uniform_filter`.

@@ -50,6 +50,15 @@ impl Tally {
     }
 }
 
+/// The largest magnitude over all segments at each of `points` points: of velocity (0) or displacement (1).
+pub(crate) fn largest(tallies: &[[Tally; 2]], quantity: usize, points: usize) -> Vec<f32> {
+    let mut peak = vec![0.0_f32; points];
+    for pair in tallies {
+        peak.iter_mut().zip(&pair[quantity].peak).for_each(|(p, own)| *p = p.max(*own));
+    }
+    peak
+}
+
 /// Velocity and displacement at every point of a field: tallies over segments of time, and values at
 /// instants.
 #[derive(Clone, Debug, Default, PartialEq)]
