@@ -6,7 +6,7 @@ import contextlib
 import socket
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import distributed
@@ -53,3 +53,14 @@ class Cluster:
         """Connect to the scheduler; give up soon where it does not come back."""
         with distributed.Client(self.address, timeout=60, set_as_default=False) as client:  # type: ignore[no-untyped-call]
             yield client
+
+
+def once(share: float, act: Callable[[], object]) -> Callable[[str, float | None], None]:
+    """A progress function that does something once, when that share of the designs is there."""
+    done: list[object] = []
+
+    def told(stage: str, now: float | None) -> None:
+        if not done and stage == "designs" and now is not None and now >= share:
+            done.append(act())
+
+    return told

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import csv
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from dask_processes import Cluster
+from dask_processes import Cluster, once
 
 import unripple as ur
 
@@ -46,17 +46,6 @@ def serial(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     return (folder / "out/table.csv").read_bytes()
 
 
-def _once(share: float, act: Callable[[], object]) -> Callable[[str, float | None], None]:
-    """A progress function that does something once, when that share of the designs is there."""
-    done: list[object] = []
-
-    def told(stage: str, now: float | None) -> None:
-        if not done and stage == "designs" and now is not None and now >= share:
-            done.append(act())
-
-    return told
-
-
 @pytest.mark.parametrize("shared", [True, False], ids=["shared folder", "rows sent"])
 def test_a_killed_worker_changes_nothing(cluster: Cluster, folder: Path, serial: bytes, shared: bool) -> None:
     (folder / "plan.toml").write_text(_PLAN.format(surface="hudin-2012"))
@@ -71,7 +60,7 @@ def test_a_killed_worker_changes_nothing(cluster: Cluster, folder: Path, serial:
 
     with cluster.client() as client:
         client.wait_for_workers(2, timeout=60)
-        told = _once(0.3, replace)
+        told = once(0.3, replace)
         report = ur.sweep("plan.toml", "out", client=client, shared=shared, no_figures=True, progress=told)
     assert replaced and 0 < replaced[0] < _DESIGNS // 5
     assert (report.done, report.failed, report.missing) == (_DESIGNS, 0, 0)
@@ -91,7 +80,7 @@ def test_a_sweep_goes_on_after_its_scheduler_was_killed(
     scheduler = cluster.scheduler()
     cluster.worker()
     with cluster.client() as client:
-        told = _once(0.3, scheduler.kill)
+        told = once(0.3, scheduler.kill)
         with pytest.raises(ur.UnrippleError, match="the same call goes on where it was"):
             ur.sweep("plan.toml", "out", client=client, no_figures=True, progress=told)
     # The worker ends the shard that it has.

@@ -9,11 +9,11 @@ from __future__ import annotations
 import os
 import subprocess
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from dask_processes import Cluster
+from dask_processes import Cluster, once
 
 import unripple as ur
 
@@ -71,17 +71,6 @@ def _overhead(name: str, took: float, alone: float) -> None:
     print(f"{name}: {took:.1f} s, {100 * (2 * took / alone - 1):.1f} % more than half of one process's time")
 
 
-def _at(share: float, act: Callable[[], object]) -> Callable[[str, float | None], None]:
-    """A progress function that does something once, when that share of the designs is there."""
-    done: list[object] = []
-
-    def told(stage: str, now: float | None) -> None:
-        if not done and stage == "designs" and now is not None and now >= share:
-            done.append(act())
-
-    return told
-
-
 def test_two_workers(cluster: Cluster, serial: tuple[bytes, float], folder: Path) -> None:
     scheduler = cluster.scheduler()
     cluster.worker(), cluster.worker()
@@ -102,8 +91,8 @@ def test_a_worker_and_then_the_scheduler_are_killed(
 ) -> None:
     scheduler = cluster.scheduler()
     first, _ = cluster.worker(), cluster.worker()
-    begin = _at(0.3, first.kill)
-    end = _at(0.6, scheduler.kill)
+    begin = once(0.3, first.kill)
+    end = once(0.6, scheduler.kill)
 
     def told(stage: str, now: float | None) -> None:
         begin(stage, now)
