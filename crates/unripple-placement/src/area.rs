@@ -1,5 +1,6 @@
 //! Areas of the plane: what is inside a polygon, and what of an actuator reaches into one.
 
+use unripple_core::plane::{from_segment, minus};
 use unripple_core::{Patch, Point};
 
 /// Share of a rectangular patch by which it may reach into an area: rounding of millimetres in a request is no fault.
@@ -26,7 +27,7 @@ pub(crate) fn reaches_into(patch: Patch, at: Point, polygon: &[Point]) -> bool {
     encloses(polygon, at)
         || match patch {
             Patch::Round { radius } => {
-                sides(polygon).any(|(a, b)| from_side(at, a, b) < radius * (1.0 - ROUNDING))
+                sides(polygon).any(|(a, b)| from_segment(at, a, b) < radius * (1.0 - ROUNDING))
             }
             Patch::Rectangular { sides: lengths, angle } => {
                 sides(polygon).any(|(a, b)| crosses(lengths, angle, minus(a, at), minus(b, at)))
@@ -37,19 +38,6 @@ pub(crate) fn reaches_into(patch: Patch, at: Point, polygon: &[Point]) -> bool {
 /// The sides of a polygon, each by its ends.
 fn sides(polygon: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
     polygon.iter().copied().zip(polygon.iter().copied().cycle().skip(1))
-}
-
-fn minus(a: Point, b: Point) -> Point {
-    Point::new(a.x - b.x, a.y - b.y)
-}
-
-/// Distance of a point from a side, in metres.
-fn from_side(p: Point, a: Point, b: Point) -> f64 {
-    let (along, to) = (minus(b, a), minus(p, a));
-    let square = along.x * along.x + along.y * along.y;
-    let share = if square > 0.0 { (along.x * to.x + along.y * to.y) / square } else { 0.0 };
-    let share = share.clamp(0.0, 1.0);
-    p.distance(Point::new(a.x + share * along.x, a.y + share * along.y))
 }
 
 /// Whether a side, by its ends relative to the centre of a turned rectangle, has a part inside it: the side is clipped at both pairs of
