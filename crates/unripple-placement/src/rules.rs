@@ -46,15 +46,15 @@ impl Rules {
     pub fn allow(&self, outline: &Outline, at: Point) -> bool {
         let [least, most] = self.from_rim;
         (self.within.is_empty() || self.within.iter().any(|area| encloses(area, at)))
-            && self.keeps_out(at)
+            && self.keeps_out(self.footprint, at)
             && outline.contains(at)
             && (least..=most).contains(&outline.to_rim(at))
             && self.lies_on(outline, at)
     }
 
-    /// Whether an actuator at a point (m) reaches into none of the areas in which there may be none.
-    pub fn keeps_out(&self, at: Point) -> bool {
-        !self.keep_out.iter().any(|area| reaches_into(self.footprint, at, area))
+    /// Whether an actuator of a footprint at a point (m) reaches into none of the areas in which there may be none.
+    pub fn keeps_out(&self, footprint: Patch, at: Point) -> bool {
+        !self.keep_out.iter().any(|area| reaches_into(footprint, at, area))
     }
 
     /// Whether the footprint of an actuator at a point (m) is wholly on a sheet.

@@ -125,12 +125,8 @@ fn actuators(
         ..Rules::default()
     };
     // What is mounted fits on the sheet.
-    let keeps_out = |port: usize| {
-        let kept = |actuator: &Actuator| {
-            Rules { footprint: footprint(actuator), ..rules.clone() }.keeps_out(actuator.at)
-        };
-        mounted.get(port).is_none_or(kept)
-    };
+    let kept = |actuator: &Actuator| rules.keeps_out(footprint(actuator), actuator.at);
+    let keeps_out = |port: usize| mounted.get(port).is_none_or(kept);
     // An actuator may be at the very rim.
     let anywhere = ask.rim_m.is_none() && ask.within_m.is_empty() && ask.keep_out_m.is_empty();
     let allowed =
