@@ -57,6 +57,6 @@ fn own_program() -> Option<PathBuf> {
 /// The command of a process of `program` that computes a piece of a plan into a folder.
 pub fn command(program: Option<&Path>, plan: &Path, place: &Path, piece: Piece) -> Command {
     let mut command = Command::new(program.unwrap_or(Path::new("unripple")));
-    command.args(["sweep", "--quiet", "--piece", &piece.to_string(), "-o"]).arg(place).arg("--").arg(plan);
+    command.args(piece.arguments(plan, place));
     command
 }

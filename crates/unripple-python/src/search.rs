@@ -9,11 +9,8 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 use unripple_tasks::optimise::{Ask, Crew, Missing, Stepped};
-use unripple_tasks::sweep::Piece;
+use unripple_tasks::sweep::{Piece, THREADS};
 use unripple_tasks::{Progress, TaskError};
-
-/// The variable that says on how many threads a process computes.
-const THREADS: &str = "RAYON_NUM_THREADS";
 
 /// A search: go() computes generations that have been asked for, up to the first that has not, and its caller asks for that one. `ask` is that
 /// of the task optimise, as JSON. A call that an exception ended, as Ctrl+C does, leaves nothing to go on with but the folder.
@@ -132,8 +129,7 @@ fn gone() -> TaskError {
 /// The command of a process that computes a piece of a sweep.
 fn process(python: &OsStr, threads: Option<usize>, plan: &Path, place: &Path, piece: &Piece) -> Command {
     let mut command = Command::new(python);
-    command.args(["-m", "unripple", "sweep", "--quiet", "--piece", &piece.to_string(), "-o"]);
-    command.arg(place).arg("--").arg(plan);
+    command.args(["-m", "unripple"]).args(piece.arguments(plan, place));
     if let Some(threads) = threads {
         command.env(THREADS, threads.to_string());
     }

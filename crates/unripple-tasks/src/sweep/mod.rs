@@ -41,4 +41,4 @@ pub(crate) use surface::origin;
 pub(crate) use table::{TABLE, field, text};
 pub(crate) use tasks::tasks;
 pub(crate) use values::step;
-pub use workers::Workers;
+pub use workers::{THREADS, Workers};

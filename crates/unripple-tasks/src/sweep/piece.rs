@@ -1,6 +1,8 @@
 //! Pieces of a sweep, as processes take them.
 
+use std::ffi::OsString;
 use std::fmt;
+use std::path::Path;
 use std::str::FromStr;
 
 /// The part of a sweep that one process computes, which can be written as an argument of a command line.
@@ -21,6 +23,24 @@ pub enum Piece {
     Shard(usize),
     /// One design, counted from 0, kept for the shard that it belongs to, while nothing else is computed: `design:I`.
     Design(usize),
+}
+
+impl Piece {
+    /// The arguments of the program with which a process computes this piece of a plan into a folder.
+    pub fn arguments(&self, plan: &Path, place: &Path) -> [OsString; 8] {
+        let piece = self.to_string().into();
+        let plan = plan.into();
+        [
+            "sweep".into(),
+            "--quiet".into(),
+            "--piece".into(),
+            piece,
+            "-o".into(),
+            place.into(),
+            "--".into(),
+            plan,
+        ]
+    }
 }
 
 impl fmt::Display for Piece {

@@ -23,7 +23,7 @@ const GRACE: usize = 50;
 const WISHES: [i32; 3] = [1, 2, 15];
 
 /// The variable that says on how many threads a process computes.
-const THREADS: &str = "RAYON_NUM_THREADS";
+pub const THREADS: &str = "RAYON_NUM_THREADS";
 
 /// How a sweep starts processes.
 pub struct Workers<'w> {
