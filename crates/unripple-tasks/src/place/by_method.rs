@@ -5,9 +5,9 @@ use super::second::leading;
 use super::setting::Setting;
 use crate::{Progress, Solved, TaskError, go_on, judge};
 use serde::Serialize;
-use unripple::act::{Act, Level, Readouts};
+use unripple::act::{Act, ActError, Level, Readouts, carries};
 use unripple::core::Surface;
-use unripple::focus::{Method, Options, Target};
+use unripple::focus::{Focuser, Method, Options, Target};
 use unripple_placement::Aim;
 
 /// Metrics of the drives of one focusing method, averaged over some targets with their weights and simulated on modes up to twice the top
@@ -76,24 +76,27 @@ fn means(
     let known = solved.model(surface, None, &[])?;
     go_on(progress)?;
     let (judge::Models { free: plant, .. }, _) = judge::models(surface, None, &[], &solved)?;
+    carries(known.conditions(), window)?;
     let on = Readouts::of(&plant);
     let total: f64 = aims.iter().map(|aim| aim.weight).sum();
     let mut all = Vec::with_capacity(methods.len());
     for method in methods {
+        let options = Options {
+            method: *method,
+            window,
+            limit: surface.emission.limit,
+            rms_limit: surface.emission.rms_limit,
+            ..Options::default()
+        };
+        let focuser = Focuser::new(&known, &options).map_err(ActError::from)?;
         let mut sums = [Some(0.0); 4];
         for aim in aims {
             go_on(progress)?;
-            let options = Options {
-                method: *method,
-                window,
-                limit: surface.emission.limit,
-                rms_limit: surface.emission.rms_limit,
-                ..Options::default()
-            };
             let targets = [Target::at(aim.at)];
             let act =
                 Act { surface, responses: &plant, targets: &targets, options: &options, level: Level::Limit };
-            let measured = act.run_from(&known, &on)?.judged.measured;
+            let focused = focuser.focus(&targets).map_err(ActError::from)?;
+            let measured = act.measure(&act.send(&focuser, focused, &on)?, &on)?;
             let (found, peak) = (&measured.targets[0], measured.targets[0].peak_velocity_m_s);
             let energy = measured.drive.energy / (peak * peak);
             let values = [found.contrast, found.felt_contrast_db, found.felt_level_db, Some(energy)];

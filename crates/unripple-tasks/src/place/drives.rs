@@ -136,6 +136,6 @@ impl Drives {
             focused => focused.map_err(ActError::from)?,
         };
         let sent = act.send(focuser, focused, on)?;
-        Ok(self.by.of(&act.judge(&sent, on)?.measured))
+        Ok(self.by.of(&act.measure(&sent, on)?))
     }
 }

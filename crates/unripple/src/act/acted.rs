@@ -2,6 +2,7 @@
 
 use super::{Act, ActError, Judged, Note, Readouts, Report, Sent, Strength, carries, judge, loss};
 use crate::core::{Drive, Responses, Surface};
+use crate::field::Measured;
 use crate::focus::{Focused, Focuser, Options};
 
 /// Result of an [`Act`]: the drive, its level and its evaluation.
@@ -57,6 +58,14 @@ impl<'a> Act<'a> {
     pub fn notes(&self, sent: &Sent) -> Vec<Note> {
         let gave_up = loss::gave_up(self, &sent.focused, &sent.strength);
         sent.notes.iter().cloned().chain(gave_up).collect()
+    }
+
+    /// Evaluates the metrics of the field of a drive on [`Act::responses`] alone: for searches that compare many drives.
+    ///
+    /// # Errors
+    /// Those of [`Readouts::fine`] and [`Field::measure`](crate::field::Field::measure).
+    pub fn measure(&self, sent: &Sent, on: &Readouts<'_>) -> Result<Measured, ActError> {
+        Ok(on.fine()?.field(&sent.drive)?.measure(&sent.aims, sent.period)?)
     }
 
     /// Evaluates the field of a drive on [`Act::responses`], and its sound.
