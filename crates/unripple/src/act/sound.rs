@@ -81,15 +81,7 @@ impl<'a> Hearing<'a> {
     /// # Errors
     /// Those of [`Radiated::pressure`].
     pub fn sound(&self, drive: &Drive, period: Option<f64>) -> Result<Sound, ActError> {
-        let none = Sound {
-            at_m: self.at,
-            a_weighted_level_db: None,
-            level_db: None,
-            a_weighted_exposure_db: None,
-            exposure_db: None,
-            peak_db: None,
-            unknown: None,
-        };
+        let none = Sound::without_levels(self.at, None);
         let radiated = match &self.radiated {
             Ok(radiated) => radiated,
             Err(why) => return Ok(Sound { unknown: Some(why.clone()), ..none }),
@@ -115,18 +107,15 @@ impl<'a> Hearing<'a> {
 }
 
 impl Sound {
+    /// The sound at a place (m) of which no level is known, and why if there is a reason.
+    fn without_levels(at_m: [f64; 3], unknown: Option<String>) -> Self {
+        let [a_weighted_level_db, level_db, a_weighted_exposure_db, exposure_db, peak_db] = [None; 5];
+        Self { at_m, a_weighted_level_db, level_db, a_weighted_exposure_db, exposure_db, peak_db, unknown }
+    }
+
     /// The sound of which no level is known, for responses without a scale.
-    pub(super) fn without_scale(&self) -> Self {
-        let why = self.unknown.clone().unwrap_or_else(|| WITHOUT_SCALE.to_owned());
-        Self {
-            at_m: self.at_m,
-            a_weighted_level_db: None,
-            level_db: None,
-            a_weighted_exposure_db: None,
-            exposure_db: None,
-            peak_db: None,
-            unknown: Some(why),
-        }
+    pub(super) fn without_scale(self) -> Self {
+        Self::without_levels(self.at_m, self.unknown.or_else(|| Some(WITHOUT_SCALE.to_owned())))
     }
 
     /// The A-weighted level in dB: the mean one of a repeated drive, or the exposure level of a single one.

@@ -1,6 +1,7 @@
 //! Reports on responses whose absolute scale is unknown.
 
 use super::Report;
+use crate::act::Sound;
 use crate::field::TargetFigures;
 
 impl Report {
@@ -20,7 +21,7 @@ impl Report {
         self.felt_outside_db = None;
         self.linearity = None;
         self.mean_mechanical_power_w = None;
-        self.sound = self.sound.map(|sound| sound.without_scale());
+        self.sound = self.sound.map(Sound::without_scale);
         self.level = self.level.map(|level| level.allowing(None));
         self.notes.retain(|note| note.topic != "linear theory");
         self
