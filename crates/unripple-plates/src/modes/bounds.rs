@@ -32,6 +32,8 @@ pub(crate) struct Bounds {
     pub(crate) accuracy: f64,
     /// Largest relative error of the frequencies that is accepted if `accuracy` cannot be reached.
     pub(crate) most: f64,
+    /// Whether decay times follow from a loss factor, for which modes that it couples matter.
+    pub(crate) lossy: bool,
 }
 
 impl Bounds {
@@ -66,7 +68,8 @@ impl Bounds {
             "a frequency whose waves are longer than 7 nm",
             max_hz,
         )?;
-        Ok(Self { medium, poisson, max_hz, k_top, accuracy: aim, most })
+        let lossy = matches!(sheet.decay, Decay::LossFactor(eta) if eta > 0.0);
+        Ok(Self { medium, poisson, max_hz, k_top, accuracy: aim, most, lossy })
     }
 
     /// The wave properties of the sheet without its air.
@@ -175,7 +178,7 @@ mod tests {
             uneven: Uneven::default(),
         };
         let medium = Medium::of(&sheet);
-        Bounds { medium, poisson: 0.3, max_hz: 3e3, k_top: 400.0, accuracy: 1e-4, most: 1e-2 }
+        Bounds { medium, poisson: 0.3, max_hz: 3e3, k_top: 400.0, accuracy: 1e-4, most: 1e-2, lossy: false }
     }
 
     #[test]

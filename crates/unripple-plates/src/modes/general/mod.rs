@@ -106,7 +106,9 @@ fn refined(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<(Solut
     let mesh = |number: usize| Observed::here().within(format!("mesh {number} of {} at most", 2 + ROUNDS));
     let mut levels = Vec::new();
     for plan in [&coarse.coarser(COARSER), &coarse] {
-        levels.push(modes(surface, fabric, bounds, plan, &mesh(1 + levels.len()))?.level());
+        // Of these, frequencies and shares alone are compared.
+        let bounds = Bounds { lossy: false, ..*bounds };
+        levels.push(modes(surface, fabric, &bounds, plan, &mesh(1 + levels.len()))?.level());
     }
     let third = coarse.coarser(1.0 / rates::finer(&levels, bounds.accuracy));
     // From levels that tell no rate the third has no edge length, and no cost.
@@ -200,17 +202,17 @@ fn modes(
         if square > 0.0 { (energy / square).clamp(0.0, 1.0) } else { 0.0 }
     };
     let bending_shares: Vec<f64> = (0..pairs.values.len()).map(share).collect();
-    let second = second(surface, fabric, &pairs, &bending_shares, forms.bending.as_ref());
+    let second = second(surface, (fabric, bounds), &pairs, &bending_shares, forms.bending.as_ref());
     let errors = second.into_iter().map(|second| Errors { second, ..Errors::default() }).collect();
     space.nodal(&mut pairs.vectors);
     Ok(Solution { plan: plan.clone(), space, pairs, bending_shares, errors, edge: mean_edge(&mesh) })
 }
 
-/// What a loss factor changes to second order, of each mode; infinite, where tension or springs act as well, for other laws of damping, for
-/// which it is not computed.
+/// What a loss factor changes to second order, of each mode; infinite, where tension or springs act as well, for other laws of damping and
+/// where it is not asked for.
 fn second(
     surface: &Surface,
-    fabric: &Fabric,
+    (fabric, bounds): (&Fabric, &Bounds),
     pairs: &Pairs,
     shares: &[f64],
     bending: SparseColMatRef<usize, f64>,
@@ -222,6 +224,9 @@ fn second(
         return losses::uncoupled(shares);
     }
     let Decay::LossFactor(eta) = surface.sheet.decay else { return vec![f64::INFINITY; shares.len()] };
+    if !bounds.lossy {
+        return vec![f64::INFINITY; shares.len()];
+    }
     let forces = spectrum::symmetric_times(bending, pairs.vectors.as_ref());
     let between = product(pairs.vectors.transpose(), forces.as_ref());
     let far = losses::far(&edges, surface.sheet.uneven.is_uniform());

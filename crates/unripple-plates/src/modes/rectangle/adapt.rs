@@ -176,7 +176,7 @@ pub(super) fn plate(problem: &Problem, lines: [Line; 2]) -> Plate {
         tension: scale(2, medium.tension),
         bending: scale(4, medium.bending_stiffness),
         poisson: problem.bounds.poisson,
-        far: losses::far(problem.edges.as_flattened(), true),
+        far: problem.bounds.lossy.then(|| losses::far(problem.edges.as_flattened(), true)),
         square: problem.square(),
     }
 }

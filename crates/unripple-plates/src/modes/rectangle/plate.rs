@@ -24,7 +24,7 @@ pub(crate) struct Plate {
     /// Poisson's ratio of the sheet, dimensionless.
     pub(crate) poisson: f64,
     /// How a loss factor couples modes to those far above; see [`losses::second`](crate::modes::losses::second).
-    pub(crate) far: f64,
+    pub(crate) far: Option<f64>,
     /// Whether the problem is unchanged if x and y are exchanged.
     pub(crate) square: bool,
 }

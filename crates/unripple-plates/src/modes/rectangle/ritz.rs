@@ -6,7 +6,7 @@ use super::super::ritz::{lowest, missing};
 use super::plate::Plate;
 use super::product::{Product, Symmetry};
 use unripple_core::Encoded;
-use unripple_linalg::{Mat, Par};
+use unripple_linalg::{Mat, MatRef, Par};
 
 /// Number of products of a class from which its modes are those of a sparse problem: below, a full decomposition takes a fraction of a
 /// second.
@@ -102,7 +102,7 @@ fn losses(
     }
     let others = plate.without_bending().stiffness(products, products);
     let forces = product(others.as_ref(), coefficients.as_ref(), par);
-    shares(plate, squares, product(coefficients.transpose(), forces.as_ref(), Par::Seq))
+    shares(plate, squares, coefficients.as_ref(), forces.as_ref())
 }
 
 /// The shares of modes that store their energy in bending alone, and what a loss factor changes to second order.
@@ -112,13 +112,22 @@ pub(crate) fn all_bending(modes: usize) -> (Vec<f64>, Vec<f64>) {
     (shares, second)
 }
 
-/// The share of bending of each mode, and what a loss factor changes to second order, from the energy (1/s²) of tension and springs
-/// between the modes.
-pub(crate) fn shares(plate: &Plate, squares: &[f64], others: Mat<f64>) -> (Vec<f64>, Vec<f64>) {
-    let own = |m: usize| (1.0 - others[(m, m)] / squares[m]).clamp(0.0, 1.0);
+/// The share of bending of each mode, and what a loss factor changes to second order, infinite for other laws of damping, for which it is not
+/// computed: from the modes' shapes, in columns, and the forces (1/s²) of tension and springs on them.
+pub(crate) fn shares(
+    plate: &Plate,
+    squares: &[f64],
+    shapes: MatRef<f64>,
+    forces: MatRef<f64>,
+) -> (Vec<f64>, Vec<f64>) {
+    let energy = |m: usize| shapes.col(m).iter().zip(forces.col(m).iter()).map(|(c, f)| c * f).sum::<f64>();
+    let own: Vec<f64> =
+        squares.iter().enumerate().map(|(m, square)| (1.0 - energy(m) / square).clamp(0.0, 1.0)).collect();
+    let Some(far) = plate.far else { return (own, vec![f64::INFINITY; squares.len()]) };
+    let others = product(shapes.transpose(), forces, Par::Seq);
     let bending = Mat::from_fn(squares.len(), squares.len(), |i, j| {
-        if i == j { own(i) * squares[i] } else { -others[(i, j)] }
+        if i == j { own[i] * squares[i] } else { -others[(i, j)] }
     });
-    let second = losses::second(squares, bending.as_ref(), plate.far, f64::INFINITY);
-    ((0..squares.len()).map(own).collect(), second)
+    let second = losses::second(squares, bending.as_ref(), far, f64::INFINITY);
+    (own, second)
 }
