@@ -6,6 +6,7 @@ use super::losses::FittedLosses;
 use super::model::Model;
 use super::solve::{Problem, Solved};
 use super::starts::minima;
+use super::telling::compared;
 use super::{Explained, Heard, Quantity, Telling};
 use crate::CalibrateError;
 use unripple_core::{Observed, OutOfRange, Surface};
@@ -119,12 +120,13 @@ pub fn fit_frequencies(
     for solved in found.iter().skip(1).filter(|solved| explains(solved, allowed)) {
         let explained = Explained::of(&model, &problem, &order, solved);
         if differs(&explained, &best) {
-            others.push(Other::of(&best, explained, false, &problem)?);
+            others.push((explained, false));
         }
     }
     if !options.sides_known {
-        others.extend(arranged_otherwise(&best, surface, &free, (&problem, order.as_slice()), allowed)?);
+        others.extend(arranged_otherwise(&best, surface, &free, (&problem, order.as_slice()), allowed));
     }
+    let others = told(&best, others, &problem)?;
     Ok(FrequencyFit { best, others, untold, losses, starts })
 }
 
@@ -188,19 +190,19 @@ fn untold_of(model: &Model<'_>, problem: &Problem, solved: &Solved) -> Option<Un
     })
 }
 
-/// Surfaces whose sides are held as others are.
+/// Surfaces whose sides are held as others are, and whether each is only mirrored.
 fn arranged_otherwise(
     best: &Explained,
     surface: &Surface,
     free: &[Quantity],
     (problem, order): (&Problem, &[usize]),
     allowed: f64,
-) -> Result<Vec<Other>, CalibrateError> {
+) -> Vec<(Explained, bool)> {
     let mut others = Vec::new();
     for mirrored in Arrangements::of(&best.surface).mirrored {
         let sides = super::arranged::words(&mirrored.outline);
         let explained = Explained { surface: mirrored, sides, ..best.clone() };
-        others.push(Other::of(best, explained, true, problem)?);
+        others.push((explained, true));
     }
     for arranged in Arrangements::of(surface).others {
         Observed::here()
@@ -209,22 +211,27 @@ fn arranged_otherwise(
         // An arrangement that cannot be computed, as one that nothing holds, is none.
         let Ok((found, _)) = minima(&model, problem) else { continue };
         let Some(solved) = found.first().filter(|solved| explains(solved, allowed)) else { continue };
-        let explained = Explained::of(&model, problem, order, solved);
-        others.push(Other::of(best, explained, false, problem)?);
+        others.push((Explained::of(&model, problem, order, solved), false));
     }
-    Ok(others)
+    others
 }
 
-impl Other {
-    fn of(
-        best: &Explained,
-        explained: Explained,
-        mirrored: bool,
-        problem: &Problem,
-    ) -> Result<Self, CalibrateError> {
-        let telling = Telling::of(&best.surface, &explained.surface, problem)?;
-        Ok(Self { explained, mirrored, telling })
+/// Other surfaces, and whether each is only mirrored, with what would tell them from the best one.
+fn told(
+    best: &Explained,
+    others: Vec<(Explained, bool)>,
+    problem: &Problem,
+) -> Result<Vec<Other>, CalibrateError> {
+    if others.is_empty() {
+        return Ok(Vec::new());
     }
+    let first = compared(&best.surface, problem)?;
+    let one = |(explained, mirrored): (Explained, bool)| {
+        let own = compared(&explained.surface, problem)?;
+        let telling = Telling::of(&best.surface, [&first, &own], problem);
+        Ok(Other { explained, mirrored, telling })
+    };
+    others.into_iter().map(one).collect()
 }
 
 /// Whether a solution explains frequencies at an allowed cost, and not by taking all of them for something else.

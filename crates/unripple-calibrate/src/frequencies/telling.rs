@@ -50,19 +50,17 @@ pub enum Telling {
     },
 }
 
+/// The modes of a surface that are compared: those of its sheet alone, without the loads of actuators.
+pub(super) fn compared(surface: &Surface, problem: &Problem) -> Result<Modes, CalibrateError> {
+    Ok(Modes::solve(surface, AHEAD * BEYOND * problem.top(), Accuracy::or_best(ACCURACY))?)
+}
+
 impl Telling {
-    /// The measurement that tells `first` and `second` apart; `None` if neither a frequency nor a place does. The sheets alone are
-    /// compared, without the loads of actuators.
-    pub(super) fn of(
-        first: &Surface,
-        second: &Surface,
-        problem: &Problem,
-    ) -> Result<Option<Self>, CalibrateError> {
-        let top = BEYOND * problem.top();
-        let solve = |surface: &Surface| Modes::solve(surface, AHEAD * top, Accuracy::or_best(ACCURACY));
-        let modes = [solve(first)?, solve(second)?];
-        let hz = [0, 1].map(|which| modes[which].frequencies_hz());
-        Ok(by_frequency(&hz, top, problem).or_else(|| by_place(first, &modes, &hz)))
+    /// The measurement that tells `first` and another surface apart, by the [compared] modes of both; `None` if neither a frequency nor a
+    /// place does.
+    pub(super) fn of(first: &Surface, modes: [&Modes; 2], problem: &Problem) -> Option<Self> {
+        let hz = modes.map(Modes::frequencies_hz);
+        by_frequency(&hz, BEYOND * problem.top(), problem).or_else(|| by_place(first, modes, &hz))
     }
 }
 
@@ -86,7 +84,7 @@ fn by_frequency(hz: &[Vec<f64>; 2], top: f64, problem: &Problem) -> Option<Telli
 }
 
 /// The place where the amplitudes of the lowest modes differ most.
-fn by_place(surface: &Surface, modes: &[Modes; 2], hz: &[Vec<f64>; 2]) -> Option<Telling> {
+fn by_place(surface: &Surface, modes: [&Modes; 2], hz: &[Vec<f64>; 2]) -> Option<Telling> {
     let (width, height) = surface.outline.extent();
     let along = |length: f64, i: usize| length * (i as f64 + 0.5) / PLACES as f64;
     let grid = (0..PLACES * PLACES).map(|n| Point::new(along(width, n % PLACES), along(height, n / PLACES)));
