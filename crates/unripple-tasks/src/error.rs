@@ -72,7 +72,7 @@ impl From<ActError> for TaskError {
                 };
                 Self::ask(field, expected.to_string(), found)
             }
-            ActError::Physics(error @ PhysicsError::TooLarge { .. }) => Self::Memory(machine::told(&error)),
+            ActError::Physics(error @ PhysicsError::TooLarge { .. }) => error.into(),
             error if error.is_failed_work() => Self::work(error),
             error => Self::input(error),
         }
@@ -89,9 +89,20 @@ impl From<StoreError> for TaskError {
     }
 }
 
+impl From<PhysicsError> for TaskError {
+    fn from(error: PhysicsError) -> Self {
+        let told = machine::told(&error);
+        match error {
+            PhysicsError::TooLarge { .. } => Self::Memory(told),
+            _ => Self::Input(told),
+        }
+    }
+}
+
 impl From<CalibrateError> for TaskError {
     fn from(error: CalibrateError) -> Self {
         match error {
+            CalibrateError::Physics(error) => error.into(),
             CalibrateError::Device(_)
             | CalibrateError::Gap { .. }
             | CalibrateError::Rig { .. }

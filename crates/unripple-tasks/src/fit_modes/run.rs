@@ -2,11 +2,10 @@
 
 use super::{Ask, Losses, Mode, Other, Report, Untold, Value, figure};
 use crate::figures::Columns;
-use crate::{Progress, TaskError, cost, figures, folder, go_on, machine};
+use crate::{Progress, TaskError, cost, figures, folder, go_on};
 use unripple::act::Note;
 use unripple::core::{Cost, Surface};
-use unripple::physics::{Accuracy, PhysicsError, SurfaceModes};
-use unripple_calibrate::CalibrateError;
+use unripple::physics::{Accuracy, SurfaceModes};
 use unripple_calibrate::frequencies::{FrequencyFit, FrequencyOptions, Heard, Quantity, fit_frequencies};
 use unripple_store::{OutputDir, parse_surface, to_toml};
 
@@ -50,7 +49,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     announce(&surface, &heard, progress);
     go_on(progress)?;
     progress.stage("fit");
-    let found = fit_frequencies(&surface, &heard, &options).map_err(refused)?;
+    let found = fit_frequencies(&surface, &heard, &options)?;
     go_on(progress)?;
     let mut report = reported(ask, &surface, &heard, &found);
     if let Some((out, record)) = out {
@@ -115,16 +114,6 @@ fn announce(surface: &Surface, heard: &[Heard], progress: &mut dyn Progress) {
     let Ok(one) = SurfaceModes::cost(surface, 1.1 * top, accuracy) else { return };
     let cost = Cost { seconds: SOLUTIONS * one.seconds, ..one };
     cost::announce(cost, "fewer and lower frequencies, fewer quantities or a coarser `accuracy`", progress);
-}
-
-fn refused(error: CalibrateError) -> TaskError {
-    match error {
-        CalibrateError::Physics(error @ PhysicsError::TooLarge { .. }) => {
-            TaskError::Memory(machine::told(&error))
-        }
-        CalibrateError::Physics(error) => TaskError::Input(machine::told(&error)),
-        error => error.into(),
-    }
 }
 
 fn reported(ask: &Ask, surface: &Surface, heard: &[Heard], found: &FrequencyFit) -> Report {

@@ -3,10 +3,10 @@
 use super::{Ask, Loaded, Report};
 use crate::curves::flattened;
 use crate::numbers::above_zero;
-use crate::{Progress, TaskError, cost, go_on, machine};
+use crate::{Progress, TaskError, cost, go_on};
 use unripple::act::less_accurate;
 use unripple::core::ModeError;
-use unripple::physics::{Accuracy, PhysicsError, SurfaceModes};
+use unripple::physics::{Accuracy, SurfaceModes};
 
 /// Default relative accuracy, if it can be reached: a phase error of 1e-3 rad at 3 kHz after 50 ms. With a
 /// smaller value, modes that need a mesh take minutes.
@@ -22,10 +22,10 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let top = above_zero(ask.top_hz.unwrap_or(surface.emission.band[1]), "top_hz", "Hz")?;
     let accuracy = Accuracy::of(ask.accuracy.or(surface.accuracy), ACCURACY);
     go_on(progress)?;
-    let cost = SurfaceModes::cost(&surface, top, accuracy).map_err(refused)?;
+    let cost = SurfaceModes::cost(&surface, top, accuracy)?;
     cost::announce(cost, "a lower top frequency or a coarser `accuracy`", progress);
     progress.stage("modes");
-    let modes = SurfaceModes::solve(&surface, top, accuracy).map_err(refused)?;
+    let modes = SurfaceModes::solve(&surface, top, accuracy)?;
     let sheet = Loaded::of(&modes.sheet);
     let of_decay = |(decay, error): (&Option<f64>, &ModeError)| decay.and(error.decay);
     let decay_errors = sheet.decay_times_s.iter().zip(&modes.errors).map(of_decay).collect();
@@ -41,13 +41,4 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         notes: flattened(&surface).into_iter().chain(less_accurate(modes.error, accuracy.aim)).collect(),
         bending_shares: modes.bending_shares,
     })
-}
-
-fn refused(error: PhysicsError) -> TaskError {
-    let told = machine::told(&error);
-    if matches!(error, PhysicsError::TooLarge { .. }) {
-        TaskError::Memory(told)
-    } else {
-        TaskError::Input(told)
-    }
 }
