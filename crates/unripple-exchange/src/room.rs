@@ -2,7 +2,7 @@
 
 use crate::{ExchangeError, Place};
 
-/// Most bytes of all arrays of a file, 4 GiB, and most per byte of the file, which is what deflate can reach with numbers of 8 bytes.
+/// Most bytes of all arrays of a file, and of what is unpacked of it, 4 GiB, and most per byte of the file, which is what deflate can reach.
 const MOST_BYTES: u64 = 1 << 32;
 const MOST_RATIO: u64 = 1032;
 
@@ -10,6 +10,11 @@ const MOST_RATIO: u64 = 1032;
 pub(crate) const NUMBER: usize = 8;
 pub(crate) const LETTER: usize = 4;
 pub(crate) const TEXT: usize = 24;
+
+/// Most bytes that so many bytes of a file may unpack to.
+pub(crate) fn most(bytes: usize) -> u64 {
+    (bytes as u64).saturating_mul(MOST_RATIO).min(MOST_BYTES)
+}
 
 /// The memory that is left for the arrays of a file.
 pub(crate) struct Room<'a> {
@@ -22,7 +27,7 @@ pub(crate) struct Room<'a> {
 impl<'a> Room<'a> {
     /// The room for the arrays of a file of so many bytes.
     pub fn of(bytes: usize, file: &'a str) -> Self {
-        let most = (bytes as u64).saturating_mul(MOST_RATIO).min(MOST_BYTES);
+        let most = most(bytes);
         Self { file, left: most, most }
     }
 

@@ -16,10 +16,6 @@ const ENTRY_SIZE: usize = 46;
 const MEMBER: &[u8] = b"PK\x03\x04";
 const MEMBER_SIZE: usize = 30;
 
-/// Most bytes that a member may have when it is unpacked, 4 GiB, and most per byte of the file, which is what deflate can reach.
-const MOST_BYTES: u64 = 1 << 32;
-const MOST_RATIO: u64 = 1032;
-
 /// Value of a field of 4 bytes that stands elsewhere, in 8 bytes.
 const ELSEWHERE: u64 = u32::MAX as u64;
 
@@ -119,7 +115,7 @@ impl Member {
         let packed = self.packed_bytes(bytes).ok_or_else(|| {
             refused(format!("{} bytes at byte {}", self.packed, self.offset), "the end of the file".into())
         })?;
-        let most = (packed.len() as u64).saturating_mul(MOST_RATIO).min(MOST_BYTES);
+        let most = crate::room::most(packed.len());
         if self.unpacked > most {
             return Err(refused(format!("at most {most} bytes"), format!("{}", self.unpacked)));
         }

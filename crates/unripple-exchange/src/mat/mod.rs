@@ -6,7 +6,7 @@ mod write;
 
 use crate::bytes::{Bytes, Order};
 use crate::error::shown;
-use crate::room::Room;
+use crate::room::{self, Room};
 use crate::{Arrays, ExchangeError, Place};
 use element::{Element, MATRIX, PACKED};
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
@@ -15,10 +15,6 @@ pub use write::write_mat;
 
 /// Bytes of the header: a text of 116, of which nothing is meant, a version and the order of bytes.
 const HEADER: usize = 128;
-
-/// Most bytes of a variable when it is unpacked, 4 GiB, and most per byte of the file, which is what deflate can reach.
-const MOST_BYTES: usize = 1 << 32;
-const MOST_RATIO: usize = 1032;
 
 /// Reads the variables of a MATLAB file: numbers, texts, and lists of texts. Variables of other classes, such as structures, are left out.
 ///
@@ -34,7 +30,7 @@ pub fn read_mat(bytes: &[u8], file: &str) -> Result<Arrays, ExchangeError> {
         let unpacked;
         let element = match element.kind {
             PACKED => {
-                let most = element.bytes.len().saturating_mul(MOST_RATIO).min(MOST_BYTES);
+                let most = usize::try_from(room::most(element.bytes.len())).unwrap_or(usize::MAX);
                 unpacked = decompress_to_vec_zlib_with_limit(element.bytes, most).map_err(|error| {
                     let found = format!("{:?}", error.status);
                     ExchangeError::content(file, Place::Byte(element.at), "a compressed variable", found)
