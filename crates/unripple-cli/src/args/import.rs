@@ -8,7 +8,7 @@ use crate::typed::{each, of, seconds};
 use clap::Args;
 use std::path::PathBuf;
 use unripple_tasks::import::Ask;
-use unripple_tasks::text_forms::{numbers, place, wire};
+use unripple_tasks::text_forms::{band, place, wire};
 
 /// Options of `import`.
 #[derive(Debug, Args)]
@@ -66,7 +66,6 @@ pub struct ImportOptions {
 impl ImportOptions {
     /// Converts the options to a request.
     pub fn ask(&self, common: &Common) -> Result<Ask, CliError> {
-        let band = self.band_hz.as_deref().map(|text| numbers(text, "LOW,HIGH in Hz", 2, 2)).transpose();
         let offset = of("--offset-mm", self.offset_mm.as_deref().map(place).transpose())?;
         Ok(Ask {
             surface: common.surface(&self.surface),
@@ -82,7 +81,7 @@ impl ImportOptions {
             offset_m: offset.unwrap_or_default(),
             actuator_names: each(&self.actuator, "--actuator", wire)?,
             without: self.without.clone(),
-            band_hz: of("--band-hz", band)?.map(|hz| [hz[0], hz[1]]),
+            band_hz: of("--band-hz", self.band_hz.as_deref().map(band).transpose())?,
             length_s: seconds(self.length_ms, "--length-ms")?,
             output: self.output.clone(),
         })

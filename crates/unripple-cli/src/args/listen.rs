@@ -7,7 +7,7 @@ use crate::typed::of;
 use clap::Args;
 use std::path::PathBuf;
 use unripple_tasks::listen::Ask;
-use unripple_tasks::text_forms::numbers;
+use unripple_tasks::text_forms::band;
 
 /// Options of `listen`.
 #[derive(Debug, Args)]
@@ -45,14 +45,10 @@ impl ListenOptions {
     /// Converts the options to a request.
     pub fn ask(&self, common: &Common) -> Result<Ask, CliError> {
         common.without_surface()?;
-        let band = |text: &String| -> Result<[f64; 2], CliError> {
-            let found = of("--band-hz", numbers(text, "LOW,HIGH in Hz", 2, 2))?;
-            Ok([found[0], found[1]])
-        };
         Ok(Ask {
             recording: self.recording.clone(),
             channel: self.channel,
-            band_hz: self.band_hz.as_ref().map(band).transpose()?,
+            band_hz: of("--band-hz", self.band_hz.as_deref().map(band).transpose())?,
             mains_hz: self.mains_hz,
             hit: self.hit,
             most: self.most,

@@ -40,12 +40,7 @@ pub(super) fn read(bytes: &[u8], file: &str, labels: &Labels, found: &mut Found)
         column += taken;
         let from = format!("{file}: column `{name}`");
         for label in labels.named(&name, &from)? {
-            let Some(at) = label.at else {
-                return Err(TaskError::Input(format!(
-                    "{}: expected the place of `{name}`, found none",
-                    label.from
-                )));
-            };
+            let at = label.place(&name)?;
             let kind = (first == FREQUENCY).then_some(Kind::FrequencyResponses);
             let says = Says { kind, ..Says::default() };
             let signal = signal.clone();

@@ -54,12 +54,7 @@ pub(super) fn file(path: &Path, labels: &Labels, found: &mut Found) -> Result<()
                 label.channel.map_or("none".into(), |channel| channel.to_string())
             )));
         };
-        let Some(at) = label.at else {
-            return Err(TaskError::Input(format!(
-                "{}: expected the place of `{name}`, found none",
-                label.from
-            )));
-        };
+        let at = label.place(&name)?;
         found.responses.push(Measured {
             from: if channels == 1 { from.clone() } else { format!("{from}: channel {channel}") },
             who: label.who,

@@ -22,6 +22,17 @@ pub(super) struct Label {
     pub from: String,
 }
 
+impl Label {
+    /// The place of the point in m.
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] if none is said of `name`.
+    pub fn place(&self, name: &str) -> Result<Point, TaskError> {
+        let none = || TaskError::Input(format!("{}: expected the place of `{name}`, found none", self.from));
+        self.at.ok_or_else(none)
+    }
+}
+
 /// Labels of files, columns and nodes by their names.
 pub(super) struct Labels {
     table: BTreeMap<String, Vec<Label>>,

@@ -6,8 +6,8 @@ use super::joining::assembled;
 use super::labels::Labels;
 use super::{Ask, Report, read};
 use crate::numbers::above_zero;
-use crate::record::{of_bytes, of_path};
-use crate::{Progress, Record, TaskError, filling, go_on, record};
+use crate::record::{now, of_bytes};
+use crate::{Progress, Record, TaskError, filling, go_on};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::path::Path;
@@ -60,7 +60,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     go_on(progress)?;
     progress.stage("responses");
     let assembled = assembled(ask, &surface, found, progress)?;
-    let plan = plan(ask, &surface, &assembled)?;
+    let plan = plan(ask, &record, &surface, &assembled)?;
     go_on(progress)?;
     let mut library = Library::create(&ask.output, &plan)?;
     record.log(&mut library)?;
@@ -129,22 +129,26 @@ fn unused(ask: &Ask) -> Result<(), TaskError> {
 }
 
 /// The plan of the library.
-fn plan(ask: &Ask, surface: &Surface, assembled: &Assembled) -> Result<LibraryPlan, TaskError> {
+fn plan(
+    ask: &Ask,
+    record: &Record,
+    surface: &Surface,
+    assembled: &Assembled,
+) -> Result<LibraryPlan, TaskError> {
     let Assembled { points, samples, conditions, .. } = assembled;
     let length = (samples - 1) as f64 / conditions.rate;
     carries(conditions, length).map_err(|error| TaskError::Input(format!("`length_s`: {error}")))?;
     let file = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let hashes =
-        ask.files.iter().chain(&ask.table).map(|path| of_path(path)).collect::<Result<Vec<_>, _>>()?;
+    let hashes: String = record.files.iter().map(|file| file.sha256.as_str()).collect();
     // Whatever changes a response must make another library, so that none is taken for one that was finished before.
     let options = serde_json::to_string(&Ask { files: Vec::new(), output: "".into(), ..ask.clone() });
-    let hashes = [hashes.concat(), options.map_err(TaskError::work)?].concat();
+    let hashes = [hashes, options.map_err(TaskError::work)?].concat();
     let about = [
         ("device", "import".to_owned()),
         ("files", ask.files.iter().map(|path| file(path)).collect::<Vec<_>>().join(", ")),
         ("sha256", of_bytes(hashes.as_bytes())),
         ("software", format!("unripple {}", env!("CARGO_PKG_VERSION"))),
-        ("created", record::now()),
+        ("created", now()),
     ];
     let ports = surface.actuators.iter().map(|a| Port { name: a.name.clone(), at: a.at }).collect();
     Ok(LibraryPlan {

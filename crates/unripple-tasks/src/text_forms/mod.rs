@@ -22,7 +22,7 @@ mod waveforms;
 
 pub use frequencies::frequencies;
 pub use named::{input_scales, key_and_value, values, wire};
-pub use numbers::{FormError, above_zero, interval, numbers};
+pub use numbers::{FormError, above_zero, band, interval, numbers};
 pub use places::{distances, place, polygon, weighted, weighted_polygon};
 pub use targets::{path, point, shape};
 pub use waveforms::waveform;

@@ -118,3 +118,20 @@ pub fn interval(text: &str) -> Result<[f64; 2], FormError> {
         false => Err(FormError::new(text, "0 <= FROM < TO", "otherwise")),
     }
 }
+
+/// Reads a band of frequencies, `LOW,HIGH`, in Hz.
+///
+/// # Errors
+/// [`FormError`] of anything but two numbers.
+///
+/// ```
+/// use unripple_tasks::text_forms::band;
+///
+/// assert_eq!(band("20,2000")?, [20.0, 2000.0]);
+/// assert!(band("20").is_err());
+/// # Ok::<(), unripple_tasks::text_forms::FormError>(())
+/// ```
+pub fn band(text: &str) -> Result<[f64; 2], FormError> {
+    let hz = numbers(text, "LOW,HIGH in Hz", 2, 2)?;
+    Ok([hz[0], hz[1]])
+}
