@@ -49,7 +49,7 @@ pub use draft::Draft;
 pub use error::ViewError;
 pub use lock::lock;
 pub use messages::Settled;
-pub use outbox::{Held, Measured, Out, Picture};
+pub use outbox::{Held, Measured, Out, Picture, refusal, stopped, toml};
 pub use session::{Done, Errand, Session};
 pub use simulation::{Follow, Instrument, PULSES, RealDevice, Spec};
 pub use stop::{Stop, Watch};

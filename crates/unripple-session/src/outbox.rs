@@ -1,6 +1,7 @@
 //! Messages and pictures of the session for pages, before they are sent.
 
 use serde::Serialize;
+use serde_json::{Value, json};
 
 /// Files of a measurement that a page has requested: a focus, computed and evaluated.
 #[derive(Clone, Debug, Default)]
@@ -79,6 +80,22 @@ pub enum Out {
     Answer(u64, String),
     /// Files of a focus that was computed on a page's request.
     Measured(Box<Measured>),
+}
+
+/// The text of the surface's file in the message that describes the surface.
+pub fn toml(message: &str) -> String {
+    let value: Value = serde_json::from_str(message).unwrap_or_default();
+    value.get("toml").and_then(Value::as_str).unwrap_or_default().to_owned()
+}
+
+/// The message that tells a page why its request is refused.
+pub fn refusal(why: &str) -> String {
+    json!({ "is": "fault", "text": why }).to_string()
+}
+
+/// The message that tells a page that the computation of its request with a number was cancelled.
+pub fn stopped(id: u64) -> String {
+    json!({ "is": "stopped", "id": id }).to_string()
 }
 
 /// Messages to pages, the oldest first.

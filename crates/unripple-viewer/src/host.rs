@@ -9,7 +9,8 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use unripple_session::{
-    Command, Done, Errand, Instrument, Measured, Out, Session, Settled, Spec, Stop, Task, lock,
+    Command, Done, Errand, Instrument, Measured, Out, Session, Settled, Spec, Stop, Task, lock, refusal,
+    stopped,
 };
 use unripple_tasks::{Lane, Silent};
 
@@ -178,20 +179,15 @@ impl SessionHost {
 /// The surface that pages are shown, as the text of its file.
 fn toml(notices: &Notices) -> String {
     let Some(Notice::Text(text)) = notices.newest("surface") else { return String::new() };
-    let value: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
-    value.get("toml").and_then(|toml| toml.as_str()).unwrap_or_default().to_owned()
+    unripple_session::toml(&text)
 }
 
 /// Tells a page why something is refused.
 fn refuse(links: &Links, page: u64, why: &str) {
-    answer(links, page, &serde_json::json!({ "is": "fault", "text": why }));
+    say(links, page, refusal(why));
 }
 
 /// Answers one page, unless so much waits to be told that it would be no use.
-fn answer(links: &Links, page: u64, message: &serde_json::Value) {
-    say(links, page, message.to_string());
-}
-
 fn say(links: &Links, page: u64, text: String) {
     if let Some(told) = lock(links).get(&page) {
         let _ = told.try_send(text);
@@ -288,9 +284,7 @@ impl Stage {
                 }
                 Out::Withdraw(kind) => self.notices.withdraw(&kind),
                 Out::Refuse(page, why) => refuse(&self.links, page, &why),
-                Out::Stopped(page, id) => {
-                    answer(&self.links, page, &serde_json::json!({ "is": "stopped", "id": id }));
-                }
+                Out::Stopped(page, id) => say(&self.links, page, stopped(id)),
                 Out::Answer(page, text) => say(&self.links, page, text),
                 Out::Measured(files) => keep(&mut lock(&self.measured), *files),
             }

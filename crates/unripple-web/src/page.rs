@@ -1,13 +1,12 @@
 //! One page's session, with what a server does around it.
 
-use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::time::Duration;
 use unripple::core::Surface;
 use unripple::core::clock::Instant;
 use unripple_session::{
     Command, ComputeWorker, Done, Errand, Held, Instrument, Measured, Out, Picture, Session, Settled, Spec,
-    ViewError,
+    ViewError, refusal, stopped, toml,
 };
 use unripple_tasks::{Lane, Silent};
 
@@ -45,8 +44,8 @@ pub struct Page {
     seen: u64,
     sent: Instant,
     held: Held<Vec<u8>>,
-    /// The present surface as the text of its file, and the files of the newest measurement.
-    toml: String,
+    /// The message that describes the present surface, and the files of the newest measurement.
+    surface: String,
     measured: Option<Measured>,
 }
 
@@ -72,7 +71,7 @@ impl Page {
             seen: 0,
             sent: now,
             held: Held::default(),
-            toml: String::new(),
+            surface: String::new(),
             measured: None,
         };
         page.collect();
@@ -137,7 +136,7 @@ impl Page {
     /// With a number, only those of the measurement with that number.
     pub fn file(&self, name: &str, id: Option<u64>) -> Option<Vec<u8>> {
         if name == "surface.toml" {
-            return Some(self.toml.clone().into_bytes());
+            return Some(toml(&self.surface).into_bytes());
         }
         let measured = self.measured.as_ref().filter(|measured| id.is_none_or(|id| id == measured.id))?;
         match name {
@@ -158,11 +157,7 @@ impl Page {
     }
 
     fn refuse(&mut self, why: &str) {
-        self.tell(&json!({ "is": "fault", "text": why }));
-    }
-
-    fn tell(&mut self, message: &Value) {
-        self.out.push_back(Message::Text(message.to_string()));
+        self.out.push_back(Message::Text(refusal(why)));
     }
 
     /// Takes over what the session has for pages.
@@ -171,7 +166,7 @@ impl Page {
             match out {
                 Out::Text(kind, text) => {
                     if kind == "surface" {
-                        self.toml = toml(&text);
+                        self.surface.clone_from(&text);
                     }
                     self.out.push_back(Message::Text(text));
                 }
@@ -179,7 +174,7 @@ impl Page {
                 // Only a page that comes later would still be sent it.
                 Out::Withdraw(_) => {}
                 Out::Refuse(_, why) => self.refuse(&why),
-                Out::Stopped(_, id) => self.tell(&json!({ "is": "stopped", "id": id })),
+                Out::Stopped(_, id) => self.out.push_back(Message::Text(stopped(id))),
                 Out::Answer(_, text) => self.out.push_back(Message::Text(text)),
                 Out::Measured(files) => self.measured = Some(*files),
             }
@@ -187,15 +182,10 @@ impl Page {
     }
 }
 
-/// The text of the surface's file in the message that describes the surface.
-fn toml(message: &str) -> String {
-    let value: Value = serde_json::from_str(message).unwrap_or_default();
-    value.get("toml").and_then(Value::as_str).unwrap_or_default().to_owned()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::Value;
     use unripple::physics::design::papers_surface;
     use unripple_store::parse_surface;
 
