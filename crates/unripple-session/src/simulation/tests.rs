@@ -4,7 +4,6 @@ use super::*;
 use crate::outbox::Out;
 use serde_json::json;
 use unripple::core::Surface;
-use unripple::focus::Method;
 use unripple::physics::design::papers_surface;
 use unripple_tasks::Silent;
 
@@ -12,18 +11,7 @@ use unripple_tasks::Silent;
 pub(crate) fn spec() -> Spec {
     let mut surface: Surface = papers_surface();
     surface.emission.band[1] = 700.0;
-    Spec {
-        surface,
-        stored: None,
-        without_scale: false,
-        method: Method::TimeReversal,
-        effect: PULSES.into(),
-        window: None,
-        rate: 10.0,
-        load: false,
-        device: None,
-        follow: None,
-    }
+    Spec::simulated(surface)
 }
 
 /// Whoever has time for a little.
