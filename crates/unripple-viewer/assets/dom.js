@@ -41,3 +41,10 @@ export function setOptions(select, pairs, chosen) {
   }
   if (chosen !== undefined && document.activeElement !== select) select.value = chosen;
 }
+
+/** Saves a file under a name, as by a click on a link to it. */
+export function save(blob, name) {
+  const url = URL.createObjectURL(blob);
+  el('a', { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}

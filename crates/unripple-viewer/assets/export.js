@@ -1,7 +1,7 @@
 // A picture of what is seen, with its colour bar and a caption; and the files that belong to it.
 
 import { drawBar } from './bar.js';
-import { el } from './dom.js';
+import { el, save } from './dom.js';
 
 /** The panes, bar and caption on one canvas. */
 export function compose(stage) {
@@ -39,12 +39,6 @@ export function compose(stage) {
   const note = stage.view === 'relief' ? `. ${stage.reliefs[0].note.textContent}` : '';
   ctx.fillText(`${stage.caption()}${note}`, font, out.height - font * 0.5, width - 2 * font);
   return out;
-}
-
-function save(blob, name) {
-  const url = URL.createObjectURL(blob);
-  el('a', { href: url, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
 
 /** The picture's button and the links to files. */

@@ -1,5 +1,7 @@
 // The way to a session in this page, which a worker holds (session-worker.js). A worker that fails is replaced by a new one.
 
+import { save } from './dom.js';
+
 const { CONNECTING, OPEN, CLOSED } = WebSocket;
 
 /** A worker, seen as a WebSocket. */
@@ -98,9 +100,7 @@ export class Here {
     try {
       const answer = await this.ask(link.getAttribute('href'));
       if (!answer.ok) throw new Error(await answer.text());
-      const url = URL.createObjectURL(await answer.blob());
-      Object.assign(document.createElement('a'), { href: url, download: link.download }).click();
-      setTimeout(() => URL.revokeObjectURL(url), 10000);
+      save(await answer.blob(), link.download);
     } catch (error) {
       console.error(`${link.download} could not be saved:`, error);
     }
