@@ -1,7 +1,8 @@
 //! Linear convolution by fast Fourier transforms.
 
+use crate::FourierPlanner;
 use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use realfft::{ComplexToReal, RealToComplex};
 use std::sync::Arc;
 
 /// A plan for linear convolutions whose results have at most `samples` samples.
@@ -36,13 +37,8 @@ impl Convolver {
     /// lengths a and b. With fewer, the convolution can become circular.
     pub fn new(samples: usize) -> Self {
         let size = smooth_size(samples.max(1));
-        let mut planner = RealFftPlanner::new();
-        Self {
-            size,
-            samples,
-            forward: planner.plan_fft_forward(size),
-            inverse: planner.plan_fft_inverse(size),
-        }
+        let mut planner = FourierPlanner::new();
+        Self { size, samples, forward: planner.forward(size), inverse: planner.inverse(size) }
     }
 
     /// Number of samples N of the Fourier transform: at least the number of samples passed to

@@ -10,7 +10,7 @@
 //! signals that are convolved several times, [`convolve()`] does one convolution, [`resample()`] changes the sample rate. A
 //! [`Threshold`] is the displacement that a fingertip just feels, against frequency, and a [`Weighting`] is the filter
 //! that expresses a displacement in multiples of it. [`RateOfChange`] and [`a_weighting()`] are for
-//! sound pressure. [`Complex`] is the type of spectra; the other functions are small.
+//! sound pressure. [`Complex`] is the type of spectra, a [`FourierPlanner`] plans their transforms; the other functions are small.
 //!
 //! ```
 //! use unripple_core::Pole;
@@ -34,6 +34,7 @@
 mod convolve;
 mod correlations;
 mod error;
+mod fourier;
 mod integral;
 mod interpolate;
 mod kernel;
@@ -49,8 +50,10 @@ mod weighting;
 pub use convolve::{Convolver, convolve, smooth_size};
 pub use correlations::Correlations;
 pub use error::DspError;
+pub use fourier::{FourierPlanner, single_precision};
 pub use integral::integral;
 pub use realfft::num_complex::Complex;
+pub use realfft::{ComplexToReal, RealToComplex};
 pub use resample::resample;
 pub use sound::{REFERENCE_PRESSURE, RateOfChange, a_weighting};
 pub use special::{bessel_i0, bessel_j, kaiser, sinc};

@@ -1,6 +1,6 @@
 //! Sound pressure as it is rated: A-weighting, and the energy of a signal's rate of change.
 
-use realfft::RealFftPlanner;
+use crate::FourierPlanner;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
@@ -57,8 +57,8 @@ impl RateOfChange {
         if size == 0 {
             return nothing;
         }
-        let mut planner = RealFftPlanner::<f64>::new();
-        let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
+        let mut planner = FourierPlanner::new();
+        let (forward, inverse) = (planner.forward(size), planner.inverse(size));
         let (mut values, mut spectrum) = (signal.to_vec(), forward.make_output_vec());
         if forward.process(&mut values, &mut spectrum).is_err() {
             return nothing; // Sizes come from the plan itself.

@@ -1,6 +1,6 @@
 //! Energy of signals in frequency bands.
 
-use realfft::RealFftPlanner;
+use crate::FourierPlanner;
 
 /// Share of the total energy of `channels` that lies above the frequency `hz` (Hz), from 0 to 1; 0 if all
 /// samples are zero.
@@ -14,11 +14,11 @@ use realfft::RealFftPlanner;
 /// assert!((unripple_dsp::share_above(&[both], 48e3, 3000.0) - 0.8).abs() < 1e-9);
 /// ```
 pub fn share_above(channels: &[Vec<f64>], rate: f64, hz: f64) -> f64 {
-    let mut planner = RealFftPlanner::<f64>::new();
+    let mut planner = FourierPlanner::new();
     let (mut above, mut total) = (0.0, 0.0);
     for channel in channels.iter().filter(|c| !c.is_empty()) {
         let length = channel.len();
-        let plan = planner.plan_fft_forward(length);
+        let plan = planner.forward(length);
         let mut signal = channel.clone();
         let mut spectrum = plan.make_output_vec();
         if plan.process(&mut signal, &mut spectrum).is_err() {
@@ -55,7 +55,7 @@ pub fn band_energies(signal: &[f64], rate: f64, top: f64, bands: usize) -> Vec<f
         return energies;
     }
     let length = signal.len();
-    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(length);
+    let plan = FourierPlanner::new().forward(length);
     let (mut signal, mut spectrum) = (signal.to_vec(), plan.make_output_vec());
     if plan.process(&mut signal, &mut spectrum).is_err() {
         return energies; // Sizes come from the plan itself.

@@ -1,9 +1,10 @@
 //! Displacement weighted by the vibrotactile detection threshold.
 
+use crate::FourierPlanner;
 use crate::Threshold;
 use crate::convolve::smooth_size;
 use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use realfft::{ComplexToReal, RealToComplex};
 use std::sync::Arc;
 
 /// A zero-phase filter that weights displacements by 1/threshold(f): its output is in units of the detection threshold, and has
@@ -50,13 +51,13 @@ impl Weighting {
 
     /// A plan for a transform of `size` samples: the gain of each bin is 1/threshold at its frequency.
     fn of(threshold: &Threshold, rate: f64, size: usize) -> Self {
-        let mut planner = RealFftPlanner::new();
+        let mut planner = FourierPlanner::new();
         let gain = |line: usize| 1.0 / (threshold.at(line as f64 * rate / size as f64) * size as f64);
         Self {
             size,
             gains: (0..=size / 2).map(gain).collect(),
-            forward: planner.plan_fft_forward(size),
-            inverse: planner.plan_fft_inverse(size),
+            forward: planner.forward(size),
+            inverse: planner.inverse(size),
         }
     }
 

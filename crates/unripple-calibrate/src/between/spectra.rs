@@ -2,12 +2,11 @@
 
 use crate::CalibrateError;
 use rayon::prelude::*;
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::Arc;
 use unripple_core::{SampledResponses, require};
+use unripple_dsp::{Complex, ComplexToReal, FourierPlanner, RealToComplex};
 use unripple_linalg::Mat;
 
 /// Cosine transform of responses into real spectra, and its inverse.
@@ -33,9 +32,9 @@ impl std::fmt::Debug for Cosines {
 impl Cosines {
     /// Transforms for responses of `samples` samples, two or more.
     pub fn new(samples: usize) -> Self {
-        let mut planner = RealFftPlanner::new();
+        let mut planner = FourierPlanner::new();
         let period = 2 * (samples.max(2) - 1);
-        Self { samples, forward: planner.plan_fft_forward(period), inverse: planner.plan_fft_inverse(period) }
+        Self { samples, forward: planner.forward(period), inverse: planner.inverse(period) }
     }
 
     /// Period of the even part, in samples: 2 (n - 1) for responses of n samples.

@@ -1,8 +1,8 @@
 //! Responses under another tension: every mode moved along the dispersion relation.
 
-use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
 use unripple_core::{CoreError, ModalResponses, Pole, SampledResponses};
+use unripple_dsp::FourierPlanner;
 use unripple_physics::Medium;
 
 /// Length of the Fourier transform relative to that of the response, so that the response's end does not
@@ -71,7 +71,7 @@ impl Warp {
             return signal.to_vec();
         }
         let size = (PADDED * samples).next_multiple_of(2);
-        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(size);
+        let plan = FourierPlanner::new().forward(size);
         let (mut input, mut spectrum) = (plan.make_input_vec(), plan.make_output_vec());
         input[..samples].copy_from_slice(signal);
         if plan.process(&mut input, &mut spectrum).is_err() {
@@ -81,7 +81,7 @@ impl Warp {
         let mut out = vec![0.0; samples];
         for (k, value) in spectrum.iter().enumerate().skip(1).filter(|(_, x)| x.norm() > 1e-7 * top) {
             let omega = TAU * k as f64 * rate / size as f64;
-            let turn = realfft::num_complex::Complex::from_polar(1.0, self.omega(omega, ratio) / rate);
+            let turn = unripple_dsp::Complex::from_polar(1.0, self.omega(omega, ratio) / rate);
             let slope = self.omega(omega * 1.001, ratio) - self.omega(omega * 0.999, ratio);
             let decay = ((slope / (0.002 * omega) - 1.0) * sigma / rate).exp();
             let mut phasor = value * (2.0 / size as f64);

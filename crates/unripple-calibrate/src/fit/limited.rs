@@ -6,9 +6,8 @@ use super::loaded::LoadedModes;
 use super::system::System;
 use crate::CalibrateError;
 use crate::signals::{Band, shift};
-use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
-use unripple_dsp::ModalSynth;
+use unripple_dsp::{FourierPlanner, ModalSynth};
 use unripple_linalg::{Mat, c64};
 
 /// Error of the modal synthesis, relative to the sum of the weights' magnitudes: far below the noise, at least -60 dB, that
@@ -94,7 +93,7 @@ pub(super) fn through(
 /// band.
 fn derivative(order: i32, band: Band, rate: f64, samples: usize) -> Vec<f64> {
     let size = (2 * (samples + BEFORE)).next_power_of_two();
-    let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(size);
+    let plan = FourierPlanner::new().inverse(size);
     let mut lines = plan.make_input_vec();
     for (k, line) in lines.iter_mut().enumerate() {
         let hz = k as f64 * rate / size as f64;

@@ -2,9 +2,9 @@
 
 use super::limited::{DERIVATIVES, Limited};
 use super::measured::Measured;
-use realfft::RealFftPlanner;
 use std::f64::consts::{PI, TAU};
 use unripple_core::Point;
+use unripple_dsp::FourierPlanner;
 use unripple_linalg::c64;
 
 /// Least decay of the window by the end of the signals, in nepers. The window is then 0.25 % of its beginning; half as many would
@@ -85,7 +85,7 @@ impl Lines {
 
     /// How signals are transformed to the lines; an empty signal has none.
     fn transform(&self) -> impl Fn(&Vec<f64>) -> Vec<c64> + '_ {
-        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(self.fold);
+        let plan = FourierPlanner::new().forward(self.fold);
         move |signal: &Vec<f64>| {
             let mut folded = plan.make_input_vec();
             let weighed = signal.iter().zip(&self.weights).enumerate();

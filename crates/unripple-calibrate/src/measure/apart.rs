@@ -2,9 +2,9 @@
 
 use super::law::Law;
 use crate::signals::{Band, Moves, Remap};
-use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
+use unripple_dsp::Complex;
 
 /// Largest relative change of tension that is searched: twice the specified range, and more than the warmth
 /// of a hand causes.

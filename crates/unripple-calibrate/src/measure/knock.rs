@@ -1,9 +1,8 @@
 //! Detection of knocks: short sounds in a recording that the drive does not explain, such as a door or a dropped tool.
 
 use crate::signals::{Band, Sweep};
-use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
-use unripple_dsp::median;
+use unripple_dsp::{FourierPlanner, median};
 
 /// Duration of a frame of the spectrogram, in s: spectral lines are 47 Hz apart.
 const FRAME: f64 = 0.0213;
@@ -159,7 +158,7 @@ fn usual_power(powers: &[Vec<f64>], line: usize, passes: &[[usize; 2]]) -> f64 {
 
 /// Powers of Hann-windowed frames, half of a frame apart, `[frame][line]`.
 fn spectrogram(signal: &[f64], size: usize) -> Vec<Vec<f64>> {
-    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(size);
+    let plan = FourierPlanner::new().forward(size);
     let (mut input, mut lines) = (plan.make_input_vec(), plan.make_output_vec());
     let window: Vec<f64> =
         (0..size).map(|i| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / size as f64).cos()).collect();

@@ -1,7 +1,7 @@
 //! The decaying tones in a surface's responses, found in the part after their beginning.
 
-use realfft::RealFftPlanner;
 use std::f64::consts::{FRAC_PI_2, TAU};
+use unripple_dsp::FourierPlanner;
 use unripple_linalg::{General, Lu, Mat, adjoint_times, c64, general, product, symmetric, times_adjoint};
 
 /// Time that the soft edges of a part of the band ring for, times their width in Hz: a thousandth is left then.
@@ -122,7 +122,7 @@ impl Baseband {
         let passed = RINGING / part.edge;
         let begin = ((zero / rate + passed) / spacing).ceil() as usize;
         let end = ((length as f64 / rate - passed) / spacing).max(0.0) as usize;
-        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(size);
+        let plan = FourierPlanner::new().forward(size);
         let turns: Vec<c64> =
             (0..lines).map(|k| c64::new(0.0, TAU * k as f64 / lines as f64).exp() / lines as f64).collect();
         let weights: Vec<f64> =

@@ -1,8 +1,8 @@
 //! Pruned Fourier transforms: only the lines in the band, by decimation in time.
 
 use super::transform::{Transform, turns};
-use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
+use unripple_dsp::Complex;
 
 /// Fourier transform that yields only a range of spectral lines, by decimation in time: the signal is split into `teeth`
 /// interleaved signals, each transformed alone within the processor's caches, and joined in the lines of the range only.

@@ -2,9 +2,8 @@
 
 use super::transform::{Transform, Work};
 use super::{Band, Inversion, positive, same};
-use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
-use unripple_dsp::DspError;
+use unripple_dsp::{Complex, DspError};
 
 /// Summed spectra of repeats of a drive and its recording: for drives that differ from repeat to repeat
 /// (taps), and for a reference channel, which records the drive after converters and amplifiers.

@@ -4,10 +4,9 @@ use super::comb::{Comb, CombWork};
 use super::transform::Transform;
 use super::{Band, Stimulus, same};
 use rayon::prelude::*;
-use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 use unripple_core::OutOfRange;
-use unripple_dsp::DspError;
+use unripple_dsp::{Complex, DspError};
 
 /// Options of a deconvolution: band, regularisation, latency, lead.
 #[derive(Clone, Copy, Debug, PartialEq)]

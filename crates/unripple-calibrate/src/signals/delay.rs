@@ -2,9 +2,8 @@
 
 use super::transform::{Transform, Work, turns};
 use super::{Band, positive};
-use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
-use unripple_dsp::DspError;
+use unripple_dsp::{Complex, DspError};
 
 /// Delay of one signal relative to another, to a fraction of a sample.
 ///

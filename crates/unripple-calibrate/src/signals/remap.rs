@@ -1,10 +1,9 @@
 //! Signals whose frequency components are moved to other frequencies, each by a different amount.
 
 use super::transform::{Transform, turns};
-use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
-use unripple_dsp::{kaiser, sinc};
+use unripple_dsp::{Complex, kaiser, sinc};
 
 /// Spectral lines on either side from which a value between lines is interpolated. With half as many the kernel's error
 /// rises from -120 dB to about -60 dB.

@@ -1,10 +1,8 @@
 //! Real fast Fourier transforms of one size, with their scratch buffers.
 
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::cell::RefCell;
 use std::sync::Arc;
-use unripple_dsp::smooth_size;
+use unripple_dsp::{Complex, ComplexToReal, FourierPlanner, RealToComplex, smooth_size};
 
 /// Number of plans that a thread caches: a measurement uses the same few sizes again and again, and planning
 /// one takes as long as three transforms of it. Each plan holds as much memory as a signal.
@@ -46,8 +44,8 @@ impl Transform {
         PLANS.with_borrow_mut(|plans| {
             let kept = plans.iter().position(|plan| plan.size == size).map(|at| plans.remove(at));
             let plan = kept.unwrap_or_else(|| {
-                let mut planner = RealFftPlanner::new();
-                let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
+                let mut planner = FourierPlanner::new();
+                let (forward, inverse) = (planner.forward(size), planner.inverse(size));
                 Self { size, forward, inverse }
             });
             if plans.len() == KEPT {

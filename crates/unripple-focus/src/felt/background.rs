@@ -1,7 +1,7 @@
 //! Mean square felt displacement of the surface, as a quadratic form in the drive's spline coefficients.
 
 use super::lines::Lines;
-use realfft::num_complex::Complex;
+use unripple_dsp::Complex;
 use unripple_linalg::{Accum, Mat, MatRef, all_threads, multiply};
 
 /// Number of values in memory at once while frequency lines are summed, 32 MiB of them. With twice this

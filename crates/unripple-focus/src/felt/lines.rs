@@ -1,10 +1,8 @@
 //! Lines (frequency bins) of a Fourier transform, up to the highest frequency that is felt.
 
-use realfft::num_complex::Complex;
-use realfft::{RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 use unripple_core::Pole;
-use unripple_dsp::Threshold;
+use unripple_dsp::{Complex, FourierPlanner, RealToComplex, Threshold};
 
 /// Frequencies whose threshold is more than this factor (40 dB) above the lowest threshold do not count as
 /// felt. Doubled (46 dB), lines reach to higher frequencies, and plans take longer.
@@ -56,7 +54,7 @@ impl Lines {
     pub fn new(threshold: &Threshold, rate: f64, window: usize, poles: &[Pole], top: f64) -> Self {
         let [size, count] = Self::sizes(rate, window, poles, top);
         let gains = (0..count).map(|k| 1.0 / threshold.at(k as f64 * rate / size as f64)).collect();
-        let transform = RealFftPlanner::new().plan_fft_forward(size);
+        let transform = FourierPlanner::new().forward(size);
         Self { rate, size, gains, exact: 2 * window, transform }
     }
 

@@ -1,8 +1,8 @@
 //! A reduced model of a surface: low modes individually, high modes as static flexibility.
 
 use super::lines::Lines;
-use realfft::num_complex::Complex;
 use unripple_core::{ModalResponses, Onset, Point, Pole, Port};
+use unripple_dsp::Complex;
 use unripple_linalg::{Accum, Mat, Par, multiply};
 
 /// Reduced model of a surface: the first modes individually, and all others as springs, that is, as static

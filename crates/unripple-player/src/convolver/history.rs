@@ -3,8 +3,8 @@
 use super::filters::LANES;
 use crate::PreparedFilters;
 use crate::shelf::{Garbage, Shelf};
-use realfft::num_complex::Complex;
 use std::sync::Arc;
+use unripple_dsp::Complex;
 
 /// Floats of a group of lanes of an input's spectrum: the real parts; the imaginary parts, with 0 in lane 0; the real
 /// parts again, with the highest frequency in lane 0. Three times the lanes, so that the product needs no special case

@@ -2,10 +2,10 @@
 
 use crate::source::described;
 use crate::{TaskError, judge};
-use realfft::RealFftPlanner;
 use std::io;
 use std::path::Path;
 use unripple::core::{Onset, Point, Port, Responses, SampledResponses};
+use unripple::dsp::FourierPlanner;
 use unripple_exchange::{
     Array, Arrays, Axis, Dof, Function, Mode, Node, Uff, UffUnits, write_mat, write_uff,
 };
@@ -190,7 +190,7 @@ fn reference_axis(unit: &str) -> Axis {
 
 /// Frequency responses of impulse responses.
 struct Spectrum {
-    planner: RealFftPlanner<f64>,
+    planner: FourierPlanner,
     /// Seconds between samples, and their number: an even one, so that the last line is at half the rate.
     time: f64,
     samples: usize,
@@ -201,14 +201,14 @@ struct Spectrum {
 impl Spectrum {
     fn new(responses: &SampledResponses) -> Self {
         let (rate, samples) = (responses.conditions.rate, responses.samples().next_multiple_of(2));
-        Self { planner: RealFftPlanner::new(), time: 1.0 / rate, samples, step: rate / samples as f64 }
+        Self { planner: FourierPlanner::new(), time: 1.0 / rate, samples, step: rate / samples as f64 }
     }
 
     /// Lines of a response, real and imaginary part after each other.
     fn of(&mut self, response: &[f32]) -> io::Result<Vec<f64>> {
         let mut values: Vec<f64> = response.iter().map(|value| self.time * f64::from(*value)).collect();
         values.resize(self.samples, 0.0);
-        let transform = self.planner.plan_fft_forward(self.samples);
+        let transform = self.planner.forward(self.samples);
         let mut lines = transform.make_output_vec();
         transform.process(&mut values, &mut lines).map_err(io::Error::other)?;
         Ok(lines.into_iter().flat_map(|line| [line.re, line.im]).collect())

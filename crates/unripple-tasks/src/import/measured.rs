@@ -4,7 +4,7 @@ use super::{Kind, Per, Quantity};
 use unripple::core::Point;
 
 /// Complex numbers as the transforms have them.
-pub(super) type Complex = realfft::num_complex::Complex<f64>;
+pub(super) type Complex = unripple::dsp::Complex<f64>;
 
 /// A response as it was read.
 pub(super) struct Measured {

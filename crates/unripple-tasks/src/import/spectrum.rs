@@ -4,8 +4,8 @@ use super::measured::{Complex, Signal};
 use super::units::Settled;
 use super::{Kind, Quantity};
 use crate::TaskError;
-use realfft::RealFftPlanner;
 use std::f64::consts::PI;
+use unripple::dsp::FourierPlanner;
 use unripple_calibrate::measure::MOST_KEPT;
 
 /// Share of a step by which an abscissa may be off, and share of its own value, which is the rounding of six digits.
@@ -27,7 +27,7 @@ pub(super) struct Converter {
     rate: f64,
     /// Lowest and highest frequency that are kept, in Hz; all if `None`.
     band: Option<[f64; 2]>,
-    planner: RealFftPlanner<f64>,
+    planner: FourierPlanner,
 }
 
 /// An impulse response of velocity.
@@ -50,7 +50,7 @@ struct Lines {
 impl Converter {
     /// A converter to a sample rate in Hz, within a band in Hz.
     pub fn new(rate: f64, band: Option<[f64; 2]>) -> Self {
-        Self { rate, band, planner: RealFftPlanner::new() }
+        Self { rate, band, planner: FourierPlanner::new() }
     }
 
     /// Converts the values of a response; `sign` multiplies them, and `from` names them in messages.
@@ -101,7 +101,7 @@ impl Converter {
         }
         values.resize(padded, 0.0);
         values.iter_mut().for_each(|value| *value *= weight);
-        let transform = self.planner.plan_fft_forward(padded);
+        let transform = self.planner.forward(padded);
         let mut lines = transform.make_output_vec();
         transform.process(&mut values, &mut lines).map_err(TaskError::work)?;
         let samples = padded / unit.max(1) * out;
@@ -168,7 +168,7 @@ impl Converter {
         if lines.samples.is_multiple_of(2) {
             spectrum[half].im = 0.0;
         }
-        let transform = self.planner.plan_fft_inverse(lines.samples);
+        let transform = self.planner.inverse(lines.samples);
         let mut values = transform.make_output_vec();
         transform.process(&mut spectrum, &mut values).map_err(TaskError::work)?;
         values.iter_mut().for_each(|value| *value *= step);
