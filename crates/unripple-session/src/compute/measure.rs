@@ -7,7 +7,7 @@ use crate::spectrum::spectrum;
 use crate::wire::Measure;
 use serde_json::{Value, json};
 use std::sync::Arc;
-use unripple::act::{Act, Acted, Level};
+use unripple::act::{Act, Acted, Level, response_error};
 use unripple::core::clock::Instant;
 use unripple::core::{Drive, Surface};
 use unripple::field::Trace;
@@ -39,6 +39,7 @@ impl ComputeWorker {
         let level = level(given(measure.peak_um), self.unscaled(of))?;
         let judged = self.judged(of, progress)?;
         let on = judged.as_ref().map_or(&responses, |(judged, _)| judged).clone();
+        let error = response_error(&on, options.window);
         let (edition, settings) = (of.clone(), options.clone());
         let acted = self.aside(progress, move |_| {
             let (surface, options) = (&edition.surface, &settings);
@@ -46,6 +47,7 @@ impl ComputeWorker {
             act.run_from(&responses, &act.readouts()).map_err(TaskError::work)
         })?;
         let mut report = self.known_of(acted.report(surface, &options), of);
+        report.response_error = error;
         report.notes.extend(note);
         judged.iter().for_each(|(_, judging)| judging.tell(surface, &mut report));
         let value = serde_json::to_value(&report).map_err(|error| error.to_string())?;
