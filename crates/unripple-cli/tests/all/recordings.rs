@@ -24,7 +24,9 @@ fn rows(python: &Path, arguments: &[&str]) -> Vec<Value> {
         .arg(folder().join("run.py"))
         .args(["--program", env!("CARGO_BIN_EXE_unripple"), "--json"])
         .env("UNRIPPLE_CONFIG", "")
-        .env("UNRIPPLE_CACHE", "");
+        .env("UNRIPPLE_CACHE", "")
+        // The simulator's arrays are small: threads of its linear algebra would wait for each other on cores that others need.
+        .env("OPENBLAS_NUM_THREADS", "1");
     let mut bench = bench.args(arguments).stdout(Stdio::piped()).spawn().unwrap();
     let lines = BufReader::new(bench.stdout.take().unwrap()).lines();
     let rows: Vec<Value> = lines

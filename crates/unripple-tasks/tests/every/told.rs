@@ -63,9 +63,14 @@ impl Progress for Watching {
     }
 }
 
-/// A sheet that takes a mesh, whose modes are found from several shifts.
+/// A sheet that takes several meshes, whose modes are found from several shifts.
 fn ask() -> modes::Ask {
-    modes::Ask { surface: "stadium-film".into(), top_hz: Some(2500.0), ..modes::Ask::default() }
+    modes::Ask {
+        surface: "stadium-film".into(),
+        top_hz: Some(2000.0),
+        accuracy: Some(1e-4),
+        ..modes::Ask::default()
+    }
 }
 
 fn meshes_and_shifts<'a>(parts: impl Iterator<Item = &'a String> + Clone) {
