@@ -65,12 +65,7 @@ impl Progress for Watching {
 
 /// A sheet that takes several meshes, whose modes are found from several shifts.
 fn ask() -> modes::Ask {
-    modes::Ask {
-        surface: "stadium-film".into(),
-        top_hz: Some(2000.0),
-        accuracy: Some(1e-4),
-        ..modes::Ask::default()
-    }
+    modes::Ask { surface: "stadium-film".into(), top_hz: Some(2000.0), accuracy: Some(1e-4) }
 }
 
 fn meshes_and_shifts<'a>(parts: impl Iterator<Item = &'a String> + Clone) {
