@@ -5,14 +5,15 @@ use crate::window_common;
 
 use rayon::prelude::*;
 use unripple_core::{Point, Surface};
-use unripple_paper::study::{CELLS, ContrastModel};
+use unripple_paper::study::{CELLS, ContrastModel, Outside};
 use unripple_physics::design::{Cavity, Windows};
 use window_common::{LOSS_FACTORS, drum, film, glass, panel, table, targets, with_loss};
 
 /// Contrasts of one surface over many windows.
 struct Judge {
     model: ContrastModel,
-    targets: Vec<Point>,
+    /// The same for every window.
+    targets: Vec<Outside>,
     actuators: Vec<Point>,
 }
 
@@ -20,6 +21,7 @@ impl Judge {
     fn of(surface: &Surface) -> Self {
         let model = ContrastModel::of(surface, CELLS).unwrap();
         let targets = targets(surface, model.conditions().lambda_min);
+        let targets = targets.into_iter().map(|target| model.outside(target)).collect();
         Self { model, targets, actuators: surface.actuators.iter().map(|a| a.at).collect() }
     }
 
@@ -27,10 +29,11 @@ impl Judge {
     fn contrast(&self, window: f64) -> f64 {
         let replay = self.model.once_of_any_length(window);
         let inputs = self.model.shapes_at(&self.actuators);
-        let square = |target: &Point| {
-            let outside = self.model.outside(*target);
-            let states = self.model.states(&replay, inputs.as_ref(), &outside);
-            self.model.contrasts(states.as_ref(), &outside).last().unwrap().powi(-2)
+        let square = |outside: &Outside| {
+            let states = self.model.states(&replay, inputs.as_ref(), outside);
+            // Of all actuators together, which is the last.
+            let together = states.get(.., states.ncols() - 1..);
+            self.model.contrasts(together, outside)[0].powi(-2)
         };
         let sum: f64 = self.targets.par_iter().map(square).sum();
         (sum / self.targets.len() as f64).powf(-0.5)
