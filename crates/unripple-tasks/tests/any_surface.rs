@@ -21,7 +21,7 @@ use unripple_store::encode_wav;
 use unripple_tasks::{Silent, SurfaceAsk, check, design, modes};
 
 /// Surfaces where nothing else is said; ./soak takes 2000.
-const FEW: u64 = 12;
+const FEW: u64 = 8;
 
 /// One in three has more modes than this.
 const MANY: f64 = 100.0;

@@ -17,7 +17,7 @@ use unripple::core::Random;
 use unripple_store::load_surface;
 
 /// Commands where nothing else is said, so that a test run has some of most kinds; ./soak takes 10000.
-const FEW: u64 = 32;
+const FEW: u64 = 24;
 
 /// Commands in a folder, which find there what those before them wrote.
 const IN_A_ROW: u64 = 8;
