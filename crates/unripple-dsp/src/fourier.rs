@@ -46,10 +46,16 @@ impl Default for FourierPlanner {
     }
 }
 
-/// The plans of [`FourierPlanner`] for 32-bit samples, forward and back, in which sound is played.
+/// The plan of [`FourierPlanner::forward`] for 32-bit samples, in which sound is played.
 #[must_use]
 #[inline(never)]
-pub fn single_precision(size: usize) -> (Arc<dyn RealToComplex<f32>>, Arc<dyn ComplexToReal<f32>>) {
-    let mut planner = RealFftPlanner::new();
-    (planner.plan_fft_forward(size), planner.plan_fft_inverse(size))
+pub fn forward_single(size: usize) -> Arc<dyn RealToComplex<f32>> {
+    RealFftPlanner::new().plan_fft_forward(size)
+}
+
+/// The plan of [`FourierPlanner::inverse`] for 32-bit samples, in which sound is played.
+#[must_use]
+#[inline(never)]
+pub fn inverse_single(size: usize) -> Arc<dyn ComplexToReal<f32>> {
+    RealFftPlanner::new().plan_fft_inverse(size)
 }

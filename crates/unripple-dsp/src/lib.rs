@@ -50,7 +50,7 @@ mod weighting;
 pub use convolve::{Convolver, convolve, smooth_size};
 pub use correlations::Correlations;
 pub use error::DspError;
-pub use fourier::{FourierPlanner, single_precision};
+pub use fourier::{FourierPlanner, forward_single, inverse_single};
 pub use integral::integral;
 pub use realfft::num_complex::Complex;
 pub use realfft::{ComplexToReal, RealToComplex};

@@ -4,7 +4,7 @@ use super::resample::LowPass;
 use crate::PlayerError;
 use crate::error::{playable, same};
 use std::sync::Arc;
-use unripple_dsp::{Complex, RealToComplex, single_precision};
+use unripple_dsp::{Complex, RealToComplex, forward_single};
 
 /// Lanes that spectra are grouped in: the float32 numbers of a 512-bit register. With twice this value, more empty lanes
 /// are worked on.
@@ -54,7 +54,7 @@ impl FilterPlan {
         let low = block / filter.factor;
         // The low-pass filter that takes responses to the lower rate reaches its half length to either side.
         let low_taps = (taps + 2 * filter.half).div_ceil(filter.factor);
-        let (forward, _) = single_precision(2 * low);
+        let forward = forward_single(2 * low);
         Self { outputs, taps, low, partitions: low_taps.div_ceil(low), filter, forward }
     }
 

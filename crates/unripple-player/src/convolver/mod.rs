@@ -28,7 +28,7 @@ use product::Product;
 use pulp::Arch;
 use resample::{Decimator, Interpolator, LowPass};
 use std::sync::Arc;
-use unripple_dsp::{Complex, ComplexToReal, single_precision};
+use unripple_dsp::{Complex, ComplexToReal, inverse_single};
 
 /// Convolves every input with its impulse responses to every output, block by block.
 ///
@@ -94,7 +94,7 @@ impl Convolver {
         let filter = LowPass::new(factor, band_top_hz / rate);
         let plan = FilterPlan::new(outputs, taps, block, filter);
         let (low, groups) = (plan.low, plan.groups());
-        let (_, backward) = single_precision(2 * low);
+        let backward = inverse_single(2 * low);
         let scratch = plan.forward.get_scratch_len().max(backward.get_scratch_len());
         let input = || Input {
             decimator: Decimator::new(&plan.filter, block),
