@@ -206,9 +206,12 @@ fn means(
             .map(|target| {
                 let outside = model.outside(*target);
                 let contrasts = |replay: &Replay| {
+                    // Of as many states as there are actuators, those of the numbers that are asked for.
                     let states = model.states(replay, inputs, &outside);
-                    let all = model.contrasts(states.as_ref(), &outside);
-                    actuators.iter().map(|n| all[n.saturating_sub(1)]).collect::<Vec<_>>()
+                    let asked = Mat::from_fn(states.nrows(), actuators.len(), |m, j| {
+                        states[(m, actuators[j].saturating_sub(1))]
+                    });
+                    model.contrasts(asked.as_ref(), &outside)
                 };
                 replays.iter().flat_map(contrasts).collect()
             })

@@ -121,10 +121,8 @@ fn what_design_predicts_is_what_targets_have() {
             .filter(|target| draw.actuators.iter().all(|a| a.distance(**target) >= 0.5 * lambda))
             .map(|target| {
                 let outside = model.outside(*target);
-                *model
-                    .contrasts(model.states(&replay, inputs.as_ref(), &outside).as_ref(), &outside)
-                    .last()
-                    .unwrap()
+                let states = model.states(&replay, inputs.as_ref(), &outside);
+                model.contrasts(states.get(.., states.ncols() - 1..), &outside)[0]
             })
             .collect();
         let count = contrasts.len() as f64;
