@@ -63,7 +63,7 @@ fn over(gains: &[Vec<[f64; 3]>], balance: usize, figure: usize) -> [f64; 3] {
 
 #[test]
 fn targets_are_felt_alone() {
-    let gains = gains(&few(10), &[FeltOptions::default(), thrifty()]);
+    let gains = gains(&few(5), &[FeltOptions::default(), thrifty()]);
     let [background, worst, drive] = [0, 1, 2].map(|figure| over(&gains, 0, figure));
     let [less_background, less_worst, less_drive] = [0, 1, 2].map(|figure| over(&gains, 1, figure));
     assert!(background[0] >= 6.0 && background[1] >= 5.5, "{background:?}");

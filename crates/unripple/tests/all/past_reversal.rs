@@ -19,7 +19,7 @@ fn inverse_reaches_the_band_limited_delta() {
     let [reversal, inverse] =
         [Method::TimeReversal, Method::Inverse].map(|method| bench.plan(method, Options::default()));
     let (mut contrasts, mut ratios, mut costs) = (Vec::new(), Vec::new(), Vec::new());
-    for at in targets(20) {
+    for at in few(8) {
         let (before, after) = (bench.judge(&reversal, at), bench.judge(&inverse, at));
         contrasts.push(after.contrast);
         ratios.push(after.contrast / before.contrast);
@@ -36,7 +36,7 @@ fn concentrate_has_four_and_a_half_times_the_contrast() {
     let [reversal, concentrate] =
         [Method::TimeReversal, Method::Concentrate].map(|method| bench.plan(method, Options::default()));
     let (mut ratios, mut costs, mut widths) = (Vec::new(), Vec::new(), Vec::new());
-    for (i, at) in targets(20).into_iter().enumerate() {
+    for (i, at) in few(8).into_iter().enumerate() {
         let (before, after) = (bench.judge(&reversal, at), bench.judge(&concentrate, at));
         ratios.push(after.contrast / before.contrast);
         costs.push(after.cost(&before));
@@ -54,7 +54,7 @@ fn concentrate_has_four_and_a_half_times_the_contrast() {
 fn concentrate_does_so_wherever_the_actuators_are() {
     let mut random = Random::seeded(7);
     let (mut ratios, mut costs) = (Vec::new(), Vec::new());
-    for _ in 0..20 {
+    for _ in 0..few(8).len() {
         let mut surface = papers_surface();
         for actuator in &mut surface.actuators {
             actuator.at.x = random.between(0.008, 0.142);
@@ -80,7 +80,7 @@ fn limited_reaches_twice_the_peak_with_three_times_the_contrast() {
     for (push, peak, contrast) in [(0.55, 2.0, 3.0), (0.77, 2.5, 2.0)] {
         let limited = bench.plan(Method::Limited, Options { push, ..Options::default() });
         let (mut peaks, mut ratios, mut shares) = (Vec::new(), Vec::new(), Vec::new());
-        for at in targets(20) {
+        for at in few(8) {
             let [before, most, after] = [&reversal, &hard, &limited].map(|plan| bench.judge(plan, at));
             peaks.push(after.peak / before.peak);
             ratios.push(after.contrast / before.contrast);
