@@ -47,6 +47,7 @@ mod point;
 mod pole;
 mod random;
 mod range;
+mod resonator;
 mod responses;
 mod scope;
 mod shape;
@@ -74,6 +75,7 @@ pub use point::Point;
 pub use pole::{Onset, Pole};
 pub use random::Random;
 pub use range::{OutOfRange, require};
+pub use resonator::{Lattice, Resonator};
 pub use responses::{
     Conditions, FOCAL_RADIUS, Mixture, ModalResponses, ModeError, Port, Responses, SampledResponses, Shapes,
 };

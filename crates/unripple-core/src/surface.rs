@@ -1,6 +1,6 @@
 //! The whole surface: sheet, outline, actuators, frequency band, finger.
 
-use crate::{Outline, Patch, Point, Uneven};
+use crate::{Outline, Patch, Point, Resonator, Uneven};
 
 /// A whole surface: sheet, outline, actuators, frequency band and finger. Holds the contents of a surface file, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,15 @@ pub struct Surface {
     /// Relative accuracy to which natural frequencies are to be computed, a ratio; `None` for the default
     /// accuracy of each computation.
     pub accuracy: Option<f64>,
+}
+
+impl Surface {
+    /// All resonators on the sheet: those that stand alone, then those of each lattice.
+    pub fn resonators(&self) -> Vec<Resonator> {
+        let Uneven { resonators, lattices, .. } = &self.sheet.uneven;
+        let of_lattices = lattices.iter().flat_map(|lattice| lattice.resonators(&self.outline));
+        resonators.iter().copied().chain(of_lattices).collect()
+    }
 }
 
 /// The sheet: a thin plate under tension, uniform and isotropic unless [`Sheet::uneven`] says otherwise.

@@ -1,9 +1,9 @@
 //! Deviations of a sheet from a uniform, isotropic one: orthotropy, profiles of its properties, attached
-//! masses.
+//! masses and resonators.
 
-use crate::Point;
+use crate::{Lattice, Point, Resonator};
 
-/// Deviations of a sheet from a uniform, isotropic one. The default is no deviation.
+/// Deviations of a sheet from a uniform, isotropic one, and resonators on it. The default is neither.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Uneven {
     /// Orthotropy: a different stiffness along and across the grain of the material.
@@ -16,12 +16,23 @@ pub struct Uneven {
     pub added_mass: Option<Profile>,
     /// Point masses and discs fixed to the sheet.
     pub scatterers: Vec<Scatterer>,
+    /// Resonators that stand on the sheet one by one; they are loads on it and leave the sheet itself as it is.
+    pub resonators: Vec<Resonator>,
+    /// Lattices of resonators.
+    pub lattices: Vec<Lattice>,
 }
 
 impl Uneven {
-    /// Whether the sheet is uniform and isotropic: none of the deviations is present.
+    /// Whether the sheet is uniform and isotropic: none of the deviations is present. Resonators are no deviation, but loads on the sheet.
     pub fn is_uniform(&self) -> bool {
-        *self == Self::default()
+        let Self { grain, thickness, tension, added_mass, scatterers, .. } = self;
+        let even = thickness.is_none() && tension.is_none() && added_mass.is_none();
+        grain.is_none() && even && scatterers.is_empty()
+    }
+
+    /// Whether any resonator stands on the sheet.
+    pub fn resonates(&self) -> bool {
+        !(self.resonators.is_empty() && self.lattices.is_empty())
     }
 }
 

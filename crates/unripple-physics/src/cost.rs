@@ -10,6 +10,13 @@ use unripple_core::{Cost, Surface};
 /// eigenvalue problem and products with its vectors.
 const COUPLED: f64 = 180.0;
 
+/// Operations for the undamped modes with loads, as a multiple of the cube of their number, in products of matrices that take as long: a
+/// symmetric eigenvalue problem and five products.
+const UNDAMPED: f64 = 40.0;
+
+/// Frequency up to which modes are damped one by one with a lattice of resonators, relative to that up to which they are coupled.
+const CONDENSED: f64 = 1.4;
+
 /// Operations for each damped mode with loads, relative to those of products: of small complex systems, some steps for each.
 const DAMPED: f64 = 20.0;
 
@@ -39,6 +46,9 @@ pub(crate) fn of(surface: &Surface, asked: &Asked) -> Result<Cost, PhysicsError>
     if loads == 0.0 {
         return Ok(sheet);
     }
+    if asked.on_lattice() {
+        return of_lattice(surface, asked, sheet);
+    }
     let rest = coordinates_of_loads(asked.loads()) as f64;
     let count = expected_modes(surface, asked.coupled_hz()) + rest;
     guard(count as usize, 0, asked.coupled_hz())?;
@@ -46,4 +56,15 @@ pub(crate) fn of(surface: &Surface, asked: &Asked) -> Result<Cost, PhysicsError>
     let coupled = Cost::of_operations(COUPLED * count.powi(3) + DAMPED * count * step);
     // Some thirty square matrices, with those of all oscillations.
     Ok(sheet + coupled + Cost { seconds: 0.0, bytes: 250.0 * count * count })
+}
+
+/// The estimated cost with many resonators, of whose coordinates all are coupled; `sheet` is that of the modes without loads.
+fn of_lattice(surface: &Surface, asked: &Asked, sheet: Cost) -> Result<Cost, PhysicsError> {
+    let loads = asked.loads() as f64;
+    let count = expected_modes(surface, asked.modes_hz()) + loads;
+    let damped = expected_modes(surface, CONDENSED * asked.coupled_hz()) + loads;
+    guard(damped as usize, 0, asked.coupled_hz())?;
+    let operations = UNDAMPED * count.powi(3) + COUPLED * damped.min(count).powi(3);
+    let bytes = 100.0 * count * count + 320.0 * damped * damped;
+    Ok(sheet + Cost::of_operations(operations) + Cost { seconds: 0.0, bytes })
 }

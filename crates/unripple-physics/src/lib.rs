@@ -46,7 +46,7 @@ pub use actuators::{Entry, Sensor, Transducer, sensed, sensors, transducers};
 pub use cost::response_cost;
 pub use coupled::{Loaded, Oscillations};
 pub use design::{Design, design};
-pub use loads::{Circuit, Footprint, Housing, Load};
+pub use loads::{Circuit, Footprint, Housing, Load, resonators};
 pub use response_error::{left_out, response_error};
 pub use responses::{
     ResponseOptions, SAMPLING_ERROR, accuracy, response_modes, responses, responses_on, sample, sampled_hz,

@@ -63,14 +63,15 @@ pub fn response_error(responses: &ModalResponses, seconds: f64) -> Option<f64> {
 /// A bound of the share of the modes above the band, root mean square within the band, in the motion that forces cause: modes that are
 /// left out of responses, which respond almost as springs there. As in [`response_error()`], it is relative to the responses in the band
 /// in the first `seconds` (s) and means all points and actuators together. `None` unless the sheet is uniform, all actuators are forces,
-/// and something moves.
+/// no resonator stands on it, and something moves.
 ///
 /// Modes above are as many as Weyl's law says: S k²/4π below the wavenumber k on an area S. Each has the mean square weight of those in the
 /// band, and the mobility jω/(ω_n² - ω²) there. Two more may lie right above the band, where it may end just under modes.
 pub fn left_out(surface: &Surface, responses: &ModalResponses, seconds: f64) -> Option<f64> {
     let ModalResponses { poles, input, conditions, .. } = responses;
     let forces = surface.actuators.iter().all(|actuator| actuator.kind == ActuatorKind::Force);
-    if !(forces && surface.sheet.uneven.is_uniform()) {
+    let uneven = &surface.sheet.uneven;
+    if !forces || !uneven.is_uniform() || uneven.resonates() {
         return None;
     }
     let (medium, area) = (Medium::of(&surface.sheet), surface.outline.area());

@@ -1,5 +1,6 @@
 //! Impulse responses of a surface, by modal superposition (poles and residues).
 
+use crate::loads::{of_lattice, resonators};
 use crate::{
     Accuracy, Footprint, Load, Loaded, Medium, Modes, Oscillations, PhysicsError, Transducer, transducers,
 };
@@ -43,7 +44,8 @@ pub struct ResponseOptions {
     /// Fingers that rest on the surface, as loads.
     pub contacts: Vec<Contact>,
     /// With loads on the sheet, modes up to this multiple of `max_hz` (at least 1.1) are computed, since
-    /// those above `max_hz` add compliance at the loads.
+    /// those above `max_hz` add compliance at the loads. With more than 64 resonators they are computed
+    /// further, until there is one for each resonator.
     pub reach: f64,
 }
 
@@ -72,8 +74,8 @@ impl Default for ResponseOptions {
 /// with the mode shapes φ_m at the actuator x_A and at the point x, and the velocity g_m of a damped
 /// oscillator, per unit of each actuator's drive (N, A or V).
 ///
-/// Modes below the band or above [`ResponseOptions::max_hz`] are left out. With loads on the sheet (coils, magnets, patches or
-/// fingers), the modes are those of the coupled system ([`Loaded`]).
+/// Modes below the band or above [`ResponseOptions::max_hz`] are left out. With loads on the sheet (coils, magnets, patches, fingers or
+/// resonators), the modes are those of the coupled system ([`Loaded`]).
 ///
 /// # Errors
 /// Those of [`Modes::solve`] and [`transducers`]; [`PhysicsError::Unsupported`] for a finger outside the outline;
@@ -131,12 +133,14 @@ pub fn responses_on(
 /// Those of [`transducers`].
 pub fn stepped_hz(surface: &Surface, max_hz: f64) -> Result<f64, PhysicsError> {
     let reach = if is_loaded(surface)? { ResponseOptions::default().reach } else { 1.0 };
-    Ok(sampled_hz(surface, reach * max_hz, max_hz))
+    let hz = (reach * max_hz).max(of_lattice(surface, surface.resonators().len()));
+    Ok(sampled_hz(surface, hz, max_hz))
 }
 
-/// Whether any actuator loads the sheet.
+/// Whether any actuator or resonator loads the sheet.
 pub(crate) fn is_loaded(surface: &Surface) -> Result<bool, PhysicsError> {
-    Ok(transducers(surface)?.iter().filter_map(|t| t.load.as_ref()).any(Load::acts))
+    Ok(surface.sheet.uneven.resonates()
+        || transducers(surface)?.iter().filter_map(|t| t.load.as_ref()).any(Load::acts))
 }
 
 /// Highest frequency of modes in sampled responses, as a share of the sample rate: modes above half the
@@ -152,14 +156,17 @@ pub fn sampled_hz(surface: &Surface, hz: f64, least: f64) -> f64 {
 /// A request for responses, after its options have been checked.
 pub(crate) struct Asked {
     transducers: Vec<Transducer>,
-    fingers: Vec<Load>,
+    /// Fingers, then resonators.
+    others: Vec<Load>,
+    /// Frequency (Hz) up to which the sheet has as many modes as there are resonators; 0 if they are few.
+    lattice_hz: f64,
     max_hz: f64,
     reach: f64,
     accuracy: Accuracy,
 }
 
 impl Asked {
-    /// Checks surface and options, and prepares the transducers and the loads of fingers.
+    /// Checks surface and options, and prepares the transducers and the loads of fingers and resonators.
     pub(crate) fn of(surface: &Surface, options: &ResponseOptions) -> Result<Self, PhysicsError> {
         let emission = &surface.emission;
         let [low, high] = emission.band;
@@ -172,12 +179,15 @@ impl Asked {
             high,
         )?;
         let transducers = transducers(surface)?;
-        let fingers = fingers(surface, &options.contacts)?;
+        let mut others = fingers(surface, &options.contacts)?;
+        let resonators = resonators(surface)?;
+        let lattice_hz = of_lattice(surface, resonators.len());
+        others.extend(resonators);
         let max_hz = options.max_hz.unwrap_or(high);
         require("top frequency of the modes in Hz", max_hz >= high, "at least the top of the band", max_hz)?;
         let reach = options.reach;
         require("reach of the modes that loads feel", reach >= DYNAMIC, "at least 1.1", reach)?;
-        Ok(Self { transducers, fingers, max_hz, reach, accuracy: options.accuracy })
+        Ok(Self { transducers, others, lattice_hz, max_hz, reach, accuracy: options.accuracy })
     }
 
     /// Whether there are no loads on the sheet.
@@ -185,19 +195,24 @@ impl Asked {
         self.loads() == 0
     }
 
+    /// Whether the modes of the sheet reach as far as a lattice of many resonators needs.
+    pub(crate) fn on_lattice(&self) -> bool {
+        self.lattice_hz > 0.0
+    }
+
     /// Number of loads on the sheet.
     pub(crate) fn loads(&self) -> usize {
         self.transducers
             .iter()
             .filter_map(|t| t.load.as_ref())
-            .chain(&self.fingers)
+            .chain(&self.others)
             .filter(|l| l.acts())
             .count()
     }
 
     /// Highest frequency of the modes of the sheet without loads that are needed, in Hz.
     pub(crate) fn modes_hz(&self) -> f64 {
-        if self.bare() { self.max_hz } else { self.reach * self.max_hz }
+        if self.bare() { self.max_hz } else { (self.reach * self.max_hz).max(self.lattice_hz) }
     }
 
     /// Relative accuracy of the modes' frequencies.
@@ -219,9 +234,9 @@ impl Asked {
     pub(crate) fn coupled(&self, surface: &Surface, modes: Arc<Modes>) -> Result<Oscillations, PhysicsError> {
         let poles = modes.poles().to_vec();
         let (sheet, medium) = (&surface.sheet, Medium::of(&surface.sheet));
-        let loaded = Loaded::new(modes, &poles, &self.transducers, &self.fingers)?.with_rest(
+        let loaded = Loaded::new(modes, &poles, &self.transducers, &self.others)?.with_rest(
             medium,
-            medium.wavenumber(TAU * self.reach * self.max_hz),
+            medium.wavenumber(TAU * self.modes_hz()),
             sheet.thickness,
             |omega, k| decay_rate(&sheet.decay, omega, medium.bending_share(k)),
         )?;
@@ -229,7 +244,7 @@ impl Asked {
         Cached::here().result_by(
             || {
                 let on = (&surface.outline, &surface.sheet, &poles, self.reach, self.accuracy, band);
-                format!("modes with loads: {on:?} {:?} {:?}", self.transducers, self.fingers)
+                format!("modes with loads: {on:?} {:?} {:?}", self.transducers, self.others)
             },
             || loaded.oscillations(self.coupled_hz(), band),
             Oscillations::encode,

@@ -7,6 +7,7 @@ mod edge;
 mod emission;
 mod grain;
 mod hole;
+mod lattice;
 mod layers;
 mod material;
 mod outline;
@@ -37,7 +38,7 @@ use reader::{Faults, Section};
 use unripple_core::{Finger, Hole, Outline, Point, Sheet, Surface};
 
 /// Keys at the top of a surface file, format 1.
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 12] = [
     "format",
     "name",
     "accuracy",
@@ -45,6 +46,7 @@ const KEYS: [&str; 11] = [
     "hole",
     "sheet",
     "scatterer",
+    "lattice",
     "drive",
     "finger",
     actuator::DEFAULTS,
@@ -110,7 +112,11 @@ fn read(root: &Section, name: Option<String>, fetch: &Fetch, faults: &mut Faults
     let ground = rim.outline(&holes).map(Ground::new);
     held(&rim, &holes, sheet.as_ref(), faults);
     let bends = sheet.as_ref().is_none_or(|sheet| sheet.young > 0.0);
-    let scatterers = scatterer::read(root, ground.as_ref(), bends, faults);
+    let attached = scatterer::read(root, ground.as_ref(), bends, faults);
+    let alone = attached.as_ref().map_or(0, |attached| attached.resonators.len());
+    let density = sheet.as_ref().map(|sheet| sheet.density * sheet.thickness);
+    let under = lattice::Under { ground: ground.as_ref(), density, bends, others: alone };
+    let lattices = lattice::read(root, &under, faults);
     let thickness = |at: Point| Some(thickness_at(sheet.as_ref()?, ground.as_ref()?, at));
     let actuators = actuator::read(root, &Base { ground: ground.as_ref(), thickness: &thickness }, faults);
     if let (Some(emission), Some(actuators)) = (&emission, &actuators) {
@@ -121,7 +127,9 @@ fn read(root: &Section, name: Option<String>, fetch: &Fetch, faults: &mut Faults
         None => Some(None),
     };
     let mut sheet = sheet?;
-    sheet.uneven.scatterers = scatterers?;
+    let attached = attached?;
+    (sheet.uneven.scatterers, sheet.uneven.resonators) = (attached.scatterers, attached.resonators);
+    sheet.uneven.lattices = lattices?;
     Some(Surface {
         name: name?,
         outline: Outline { shape: rim.shape?, edges: rim.edges.filter(|_| sound)?, holes },

@@ -87,7 +87,8 @@ fn is_symmetric(surface: &Surface) -> bool {
     let even = uneven.thickness.is_none() && uneven.tension.is_none() && uneven.added_mass.is_none();
     let straight = uneven.grain.is_none_or(|grain| (2.0 * grain.direction).sin().abs() < 1e-9);
     let bare = surface.actuators.iter().all(|actuator| matches!(actuator.kind, ActuatorKind::Force));
-    even && straight && bare && uneven.scatterers.is_empty() && surface.outline.holes.is_empty()
+    let bare = bare && uneven.scatterers.is_empty() && !uneven.resonates();
+    even && straight && bare && surface.outline.holes.is_empty()
 }
 
 #[cfg(test)]

@@ -37,10 +37,13 @@ pub(super) struct Active {
 
 impl Active {
     /// The coordinates of the sheet that couple to the loads, from combinations of its modes (`shapes`).
-    /// Above the angular frequency `dynamic` (rad/s), only the combinations that the loads excite are kept.
+    /// Above the angular frequency `dynamic` (rad/s), only the combinations that the loads excite are kept, unless these are not fewer.
     /// `at_loads` holds the mode shapes averaged over the loads' footprints, loads x modes.
     pub fn of(shapes: &[Shape], at_loads: MatRef<'_, f64>, dynamic: f64) -> Self {
-        let (low, high): (Vec<&Shape>, Vec<&Shape>) = shapes.iter().partition(|s| s.pole.omega <= dynamic);
+        let most = DEPTH * at_loads.nrows();
+        let above = shapes.iter().filter(|s| s.pole.omega > dynamic).count();
+        let kept = |shape: &&Shape| shape.pole.omega <= dynamic || above <= most;
+        let (low, high): (Vec<&Shape>, Vec<&Shape>) = shapes.iter().partition(kept);
         let vectors = moved(&high, at_loads);
         let count = low.len() + vectors.len();
         let mut map = Mat::zeros(at_loads.ncols(), count);
@@ -67,13 +70,8 @@ impl Active {
     }
 }
 
-/// Orthonormal combinations of high shapes that span Ω^{-2k} Wᵀ for k = 1 … DEPTH; all shapes if they are
-/// not more numerous.
+/// Orthonormal combinations of high shapes that span Ω^{-2k} Wᵀ for k = 1 … DEPTH.
 fn moved(high: &[&Shape], at_loads: MatRef<'_, f64>) -> Vec<Vec<f64>> {
-    if high.len() <= DEPTH * at_loads.nrows() {
-        let unit = |i: usize| (0..high.len()).map(|j| f64::from(u8::from(i == j))).collect();
-        return (0..high.len()).map(unit).collect();
-    }
     let lowest = high.iter().map(|s| s.pole.omega).fold(f64::INFINITY, f64::min);
     let softened = |vector: &[f64]| -> Vec<f64> {
         vector.iter().zip(high).map(|(v, shape)| v * (lowest / shape.pole.omega).powi(2)).collect()

@@ -16,6 +16,7 @@ mod active;
 mod admittance;
 mod basis;
 mod complement;
+mod condensed;
 mod conservative;
 mod coordinates;
 mod kept;
@@ -32,6 +33,7 @@ pub(crate) use active::coordinates_of_loads;
 pub use oscillations::Oscillations;
 pub(crate) use oscillations::guard;
 
+use crate::loads::FEW;
 use crate::{Entry, Footprint, Load, Medium, PhysicsError, Transducer};
 use remainder::Remainder;
 use rest::WithRest;
@@ -101,7 +103,8 @@ impl Loaded {
     ///
     /// The compliance is the static deflection of an infinite sheet of this `medium`, without its part of wavenumbers below `above`, with
     /// its inertia to first order. `decay` gives the decay rate (1/s) for a frequency (rad/s) and wavenumber (rad/m). Contacts
-    /// count as discs of a radius of at least `finest` (m), the thickness of the sheet. Without loads nothing is added.
+    /// count as discs of a radius of at least `finest` (m), the thickness of the sheet. Without loads nothing is added; nor is it at
+    /// resonators where they are more than 64, for which modes have to be computed up to waves as short as their lattice's.
     ///
     /// # Errors
     /// Those of [`Loaded::new`].
@@ -112,12 +115,15 @@ impl Loaded {
         finest: f64,
         decay: impl Fn(f64, f64) -> f64,
     ) -> Result<Self, PhysicsError> {
-        if !(self.is_loaded() && above > 0.0 && finest > 0.0) {
+        let many = self.loads.iter().filter(|load| load.resonates()).count() > FEW;
+        let corrected = self.loads.iter().filter(|load| !(many && load.resonates()));
+        let corrected: Vec<Load> = corrected.cloned().collect();
+        if corrected.is_empty() || !(above > 0.0 && finest > 0.0) {
             return Ok(self);
         }
         let remainder = Remainder::new(medium, above, finest);
         let mut poles = self.poles.clone();
-        let Some(shapes) = WithRest::add(self.shapes.clone(), &mut poles, &self.loads, &remainder, decay)
+        let Some(shapes) = WithRest::add(self.shapes.clone(), &mut poles, &corrected, &remainder, decay)
         else {
             return Ok(self);
         };

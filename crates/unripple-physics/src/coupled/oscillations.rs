@@ -3,6 +3,7 @@
 use super::Loaded;
 use super::active::Active;
 use super::basis::{Shape, split};
+use super::condensed;
 use super::conservative::Conservative;
 use super::coordinates::Coordinates;
 use super::mixed::Mixed;
@@ -97,7 +98,9 @@ impl Loaded {
                 parts.real(m, &modes, &drives);
             }
         } else {
-            let found = match quotient::roots(&active, &modes, &system.loads, &drives) {
+            let found = quotient::roots(&active, &modes, &system.loads, &drives)
+                .or_else(|| condensed::roots(&modes, &system.loads, &drives, high));
+            let found = match found {
                 Some(found) => found,
                 None => State::of(&modes, &system.loads, &drives).roots(dynamic_hz)?,
             };

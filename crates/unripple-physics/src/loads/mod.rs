@@ -1,8 +1,11 @@
-//! Mechanical loads on the sheet that move with it: fingers, coils, masses.
+//! Mechanical loads on the sheet that move with it: fingers, coils, masses, resonators.
 
 mod footprint;
+mod resonator;
 
 pub use footprint::Footprint;
+pub use resonator::resonators;
+pub(crate) use resonator::{FEW, of_lattice};
 
 use crate::PhysicsError;
 use unripple_core::{Contact, Outline, require};

@@ -1,6 +1,8 @@
 //! The sheet for the time-domain simulation (poles, mode shapes, outline), and its channels.
 
-use crate::{Entry, Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
+use crate::{
+    Entry, Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, resonators, transducers,
+};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface, require};
@@ -11,7 +13,7 @@ use unripple_plates::decay_rate;
 /// modes would alias. At 1, they would alternate from sample to sample.
 const FASTEST: f64 = 0.9;
 
-/// The sheet for the time-domain simulation: poles and shapes of its modes, and its outline. It is cheap to
+/// The sheet for the time-domain simulation: poles and shapes of its modes, its outline, and the resonators on it. It is cheap to
 /// clone, so that another thread can compute [`ContactWeights`].
 #[derive(Clone, Debug)]
 pub struct Plant {
@@ -23,6 +25,8 @@ pub struct Plant {
     pub(super) shapes: Arc<dyn Shapes>,
     /// The outline of the sheet; contact discs are cut off at its boundary.
     pub(super) outline: Arc<Outline>,
+    /// Loads that belong to the sheet and to no channel: resonators.
+    pub(super) loads: Arc<[Load]>,
 }
 
 /// A channel of the simulation: one drive and one sensor signal at a contact on the sheet, with its load.
@@ -76,20 +80,21 @@ impl Plant {
             bending_shares: vec![0.0; poles.len()].into(),
             shapes,
             outline: Arc::new(outline),
+            loads: Arc::new([]),
         })
     }
 
-    /// A sheet with the given modes of a surface, without loads.
+    /// A sheet with the given modes of a surface, with its resonators and without other loads.
     ///
     /// # Errors
-    /// Those of [`Plant::new`].
+    /// Those of [`Plant::new`] and [`resonators`].
     pub fn of(surface: &Surface, modes: Arc<Modes>) -> Result<Self, PhysicsError> {
         let (poles, shares) = (modes.poles().to_vec(), modes.bending_shares().to_vec());
-        Self::new(&poles, modes, surface.outline.clone())?.with_bending_shares(&shares)
+        let plant = Self::new(&poles, modes, surface.outline.clone())?.with_bending_shares(&shares)?;
+        Ok(Self { loads: resonators(surface)?.into(), ..plant })
     }
 
-    /// A sheet with the given modes of a surface and, if the surface's actuators load it, the residual
-    /// compliance of higher modes at these loads ([`Loaded::with_rest`]), so that the compliance at the
+    /// A sheet with the given modes of a surface, its resonators and, if these or actuators load it, the residual compliance of higher modes at these loads ([`Loaded::with_rest`]), so that the compliance at the
     /// loads is accurate even with few modes. If an added mode would be too fast for `rate` samples per
     /// second, none is added.
     ///
@@ -105,7 +110,7 @@ impl Plant {
         let top = modes.poles().iter().map(|pole| pole.omega).fold(0.0, f64::max);
         let (sheet, medium) = (&surface.sheet, Medium::of(&surface.sheet));
         let poles = modes.poles().to_vec();
-        let loaded = Loaded::new(modes.clone(), &poles, &transducers, &[])?.with_rest(
+        let loaded = Loaded::new(modes.clone(), &poles, &transducers, &bare.loads)?.with_rest(
             medium,
             medium.wavenumber(top),
             sheet.thickness,
@@ -120,7 +125,9 @@ impl Plant {
         let share = |pole: &Pole| medium.bending_share(still.wavenumber(pole.omega)).clamp(0.0, 1.0);
         let shares: Vec<f64> =
             modes.bending_shares().iter().copied().chain(added.iter().map(share)).collect();
-        Self::new(poles, shapes.clone(), surface.outline.clone())?.with_bending_shares(&shares)
+        let plant =
+            Self::new(poles, shapes.clone(), surface.outline.clone())?.with_bending_shares(&shares)?;
+        Ok(Self { loads: bare.loads, ..plant })
     }
 
     /// A sheet with the poles and shapes of modal responses.

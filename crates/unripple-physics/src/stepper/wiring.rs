@@ -1,4 +1,4 @@
-//! The ports of all channels in the time-domain simulation, and the housings of exciters among them.
+//! The ports of all channels in the time-domain simulation and of the sheet's resonators, with the housings among them.
 //!
 //! A housing is a coordinate behind the modes, like a mode of frequency 0, with the weight -1/√M at the port of its spring, damper and
 //! coil. So that port has the velocity of the contact relative to the housing, and its force acts on both.
@@ -24,21 +24,21 @@ pub(super) struct Wiring {
     pub(super) burdens: Vec<Burden>,
     /// The port of each channel and its factors for drive and sensor, in channel order.
     pub(super) leads: Vec<Lead>,
-    /// Number of housings, each with a twin.
+    /// Number of housings, those of resonators last; those of exciters have a twin each.
     pub(super) housings: usize,
     /// Poles of the modes, then of the housings, then of the housings' twins.
     pub(super) poles: Vec<Pole>,
 }
 
-/// Coordinates of a housing and of its twin, by their indices, and the weight of both at their ports.
+/// Coordinates of a housing and of its twin, if it has one, by their indices, and the weight of both at their ports.
 struct Place {
     housing: usize,
-    twin: usize,
+    twin: Option<usize>,
     weight: f64,
 }
 
 impl Wiring {
-    /// Assigns ports to channels: those without load first, then those of each load.
+    /// Assigns ports to channels: those without load first, then those of each load; those of resonators last.
     ///
     /// # Errors
     /// Those of [`Channel::check`], and [`PhysicsError::Range`] for a footprint whose weights are not finite.
@@ -46,7 +46,8 @@ impl Wiring {
         channels.iter().try_for_each(Channel::check)?;
         let channels: Vec<Channel> = channels.iter().map(|channel| channel.settled(rate)).collect();
         let housing = |channel: &Channel| channel.load.as_ref().and_then(|load| load.housing);
-        let all = channels.iter().filter_map(housing).count();
+        let twins = channels.iter().filter_map(housing).count();
+        let all = twins + plant.loads.iter().filter(|load| load.acts() && load.housing.is_some()).count();
         let mut wiring = Self { plain: channels.iter().filter(|c| struck(c)).count(), ..Self::default() };
         let mut loaded = Vec::new();
         for channel in &channels {
@@ -57,7 +58,7 @@ impl Wiring {
             if let Some(load) = &channel.load {
                 let place = load.housing.map(|housing| {
                     let number = plant.modes() + wiring.housings;
-                    Place { housing: number, twin: number + all, weight: housing.weight() }
+                    Place { housing: number, twin: Some(number + all), weight: housing.weight() }
                 });
                 wiring.housings += usize::from(place.is_some());
                 let weights = plant.weights(&load.footprint)?;
@@ -68,8 +69,15 @@ impl Wiring {
             }
             wiring.leads.push(lead);
         }
+        for load in plant.loads.iter().filter(|load| load.acts()) {
+            let number = plant.modes() + wiring.housings;
+            let place =
+                load.housing.map(|housing| Place { housing: number, twin: None, weight: housing.weight() });
+            wiring.housings += usize::from(place.is_some());
+            wiring.hang(load, place.as_ref(), plant.weights(&load.footprint)?, &mut loaded);
+        }
         wiring.rows.append(&mut loaded);
-        let rigid = std::iter::repeat_n(Pole::new(0.0, 0.0), 2 * wiring.housings);
+        let rigid = std::iter::repeat_n(Pole::new(0.0, 0.0), all + twins);
         wiring.poles = plant.poles.iter().copied().chain(rigid).collect();
         Ok(wiring)
     }
@@ -92,9 +100,12 @@ impl Wiring {
         if let Some((tied, Place { housing, twin, weight })) = tied.zip(place) {
             loaded.push(with(weights, *housing, *weight));
             self.burdens.push(burden(&tied));
-            loaded.push(with(Vec::new(), *twin, *weight));
-            self.burdens.push(Burden { twin: true, ..burden(&tied) });
-            return self.plain + loaded.len() - 2;
+            let port = self.plain + loaded.len() - 1;
+            if let Some(twin) = twin {
+                loaded.push(with(Vec::new(), *twin, *weight));
+                self.burdens.push(Burden { twin: true, ..burden(&tied) });
+            }
+            return port;
         }
         self.plain + loaded.len() - 1
     }

@@ -109,6 +109,11 @@ pub(crate) mod of {
     pub(crate) const RESONANCE: Limits = Limits::new("Hz", 0, 1.0, 1e5);
     pub(crate) const SPRING: Limits = Limits::new("N/mm", 3, 1e-4, 1e5);
     pub(crate) const QUALITY_FACTOR: Limits = Limits::new("", 0, 0.1, 1000.0);
+    pub(crate) const RESONATOR_MASS: Limits = Limits::new("g", -3, 1e-6, 1e5);
+    pub(crate) const RESONATOR_QUALITY: Limits = Limits::new("", 0, 0.1, 1e6);
+    pub(crate) const MASS_RATIO: Limits = Limits::new("", 0, 1e-6, 100.0);
+    pub(crate) const FREQUENCY_SCATTER: Limits = Limits::new("%", -2, 0.0, 20.0);
+    pub(crate) const LATTICE_PITCH: Limits = Limits::new("mm", -3, 0.01, 1e5);
     pub(crate) const PAD_RADIUS: Limits = Limits::new("mm", -3, 0.0, 100.0);
     pub(crate) const PATCH_RADIUS: Limits = Limits::new("mm", -3, 0.1, 100.0);
     pub(crate) const PATCH_SIDE: Limits = Limits::new("mm", -3, 0.1, 1000.0);

@@ -57,6 +57,8 @@ pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<Sheet> {
             tension: tension_profile?,
             added_mass: added_mass?,
             scatterers: Vec::new(),
+            resonators: Vec::new(),
+            lattices: Vec::new(),
         },
     })
 }

@@ -9,8 +9,8 @@ use crate::decimal::text;
 use crate::degrees;
 use crate::lines::{Lines, list, named, point, quoted};
 use unripple_core::{
-    Actuator, ActuatorKind, CoilDrive, Decay, Emission, Finger, Patch, Profile, Scatterer, ScattererKind,
-    Sheet, Surface, Uneven,
+    Actuator, ActuatorKind, CoilDrive, Decay, Emission, Finger, Lattice, Patch, Profile, Resonator,
+    Scatterer, ScattererKind, Sheet, Surface, Uneven,
 };
 
 /// Writes a surface as the text of a file in format 1. [`crate::parse_surface`] turns the text back into the
@@ -33,6 +33,8 @@ pub fn to_toml(surface: &Surface) -> String {
     surface.outline.holes.iter().for_each(|hole| rim::hole(hole, &mut out));
     sheet(&surface.sheet, &mut out);
     surface.sheet.uneven.scatterers.iter().for_each(|s| scatterer(s, &mut out));
+    surface.sheet.uneven.resonators.iter().for_each(|r| resonator(r, &mut out));
+    surface.sheet.uneven.lattices.iter().for_each(|l| lattice(l, &mut out));
     emission(&surface.emission, &mut out);
     finger(&surface.finger, &mut out);
     surface.actuators.iter().for_each(|a| actuator(a, &mut out));
@@ -117,6 +119,31 @@ fn scatterer(scatterer: &Scatterer, out: &mut Lines) {
             out.line("poisson_ratio", &text(*poisson, 0));
         }
     }
+}
+
+fn resonator(resonator: &Resonator, out: &mut Lines) {
+    out.table("[[scatterer]]");
+    out.line("at_mm", &point(&resonator.at));
+    out.line("kind", "\"resonator\"");
+    tuned([resonator.mass, resonator.frequency, resonator.quality_factor], out);
+}
+
+fn lattice(lattice: &Lattice, out: &mut Lines) {
+    out.table("[[lattice]]");
+    out.line("from_mm", &point(&lattice.corners[0]));
+    out.line("to_mm", &point(&lattice.corners[1]));
+    out.line("columns", &lattice.cells[0].to_string());
+    out.line("rows", &lattice.cells[1].to_string());
+    tuned([lattice.mass, lattice.frequency, lattice.quality_factor], out);
+    out.line("scatter_percent", &text(lattice.scatter, 2));
+    out.line("seed", &lattice.seed.to_string());
+}
+
+/// Mass (kg), frequency (Hz) and quality factor of resonators.
+fn tuned([mass, frequency, quality_factor]: [f64; 3], out: &mut Lines) {
+    out.line("mass_g", &text(mass, 3));
+    out.line("frequency_hz", &text(frequency, 0));
+    out.line("quality_factor", &text(quality_factor, 0));
 }
 
 fn actuator(actuator: &Actuator, out: &mut Lines) {

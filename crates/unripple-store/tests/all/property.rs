@@ -128,6 +128,8 @@ fn uneven(young: f64) -> impl Strategy<Value = Uneven> {
         tension,
         added_mass,
         scatterers: Vec::new(),
+        resonators: Vec::new(),
+        lattices: Vec::new(),
     })
 }
 
