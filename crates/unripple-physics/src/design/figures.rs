@@ -5,6 +5,7 @@ use super::tradeoffs::{actuator_counts, by_band, by_noise, by_rate, by_window};
 use super::{
     ByBand, ByNoise, ByRate, ByWindow, Deformation, Note, PaperFigures, Touch, Wave, WithActuators, closed,
 };
+use super::{LatticeFigures, lattice::lattices};
 use super::{deformation::deformation, touch::own_touches, waves::waves};
 use std::f64::consts::TAU;
 
@@ -45,6 +46,8 @@ pub struct Design {
     /// Modes with the actuators on the sheet, which the mode counts, first mode and decay time in this
     /// struct ignore; `None` if no actuator loads the sheet, or if modes cannot be computed.
     pub with_actuators: Option<WithActuators>,
+    /// Waves in each lattice of resonators on the sheet, in the surface's order; all other waves are those of the sheet alone.
+    pub lattices: Vec<LatticeFigures>,
     /// Heisenberg time n̄ = M/B, in seconds: the mean number of modes per hertz over the band, which is the
     /// time needed to resolve neighbouring modes.
     pub heisenberg_time_s: f64,
@@ -146,6 +149,7 @@ impl Design {
             mode_count_weyl: ground.weyl_count(),
             first_mode_hz: ground.first_mode_hz,
             with_actuators: None,
+            lattices: lattices(surface),
             heisenberg_time_s: cavity.modes() / (top - low),
             heisenberg_time_top_s: ground.density_at_top(),
             decay_time_s: cavity.decay_time(),

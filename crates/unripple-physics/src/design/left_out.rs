@@ -16,6 +16,7 @@ pub(super) fn left_out(ground: &Ground<'_>) -> Option<Note> {
         housings(surface),
         patches(surface),
         contacts(surface),
+        resonators(surface),
         uneven(surface),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
@@ -92,6 +93,13 @@ fn contacts(surface: &Surface) -> Option<String> {
     let found = all(surface, radius);
     (!found.is_empty())
         .then(|| format!("contact discs of {} mm radius ({})", range(&found, 1e3), actuators(&found)))
+}
+
+/// Text on the resonators on the sheet.
+fn resonators(surface: &Surface) -> Option<String> {
+    let found = surface.resonators();
+    let mass = found.iter().map(|resonator| resonator.mass).sum::<f64>() * 1e3;
+    (!found.is_empty()).then(|| format!("resonators of {} g in all ({})", rounded(mass, 3), found.len()))
 }
 
 /// Text on what makes the sheet uneven.

@@ -11,6 +11,7 @@ pub(super) fn notes(ground: &Ground<'_>, design: &Design) -> Vec<Note> {
     let mut notes = vec![which(ground, design), growth(design), power()];
     notes.extend(limits(ground.surface));
     notes.extend(rigid(ground));
+    notes.extend(super::lattice::note(ground.surface));
     notes.extend(left_out(ground));
     notes
 }

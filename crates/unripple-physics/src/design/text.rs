@@ -13,6 +13,7 @@ impl Display for Design {
             self.surface, self.actuators, self.band_hz[0], self.band_hz[1]
         )?;
         waves(self, f)?;
+        super::lattice::text(&self.lattices, f)?;
         modes(self, f)?;
         contrast(self, f)?;
         repetition(self, f)?;

@@ -18,6 +18,7 @@ mod loaded_modes_oracle;
 #[path = "../../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 mod modes_property;
+mod resonator_oracle;
 mod response_error_oracle;
 mod responses_oracle;
 #[path = "../stepper_common/mod.rs"]
