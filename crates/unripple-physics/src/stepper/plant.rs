@@ -94,9 +94,10 @@ impl Plant {
         Ok(Self { loads: resonators(surface)?.into(), ..plant })
     }
 
-    /// A sheet with the given modes of a surface, its resonators and, if these or actuators load it, the residual compliance of higher modes at these loads ([`Loaded::with_rest`]), so that the compliance at the
-    /// loads is accurate even with few modes. If an added mode would be too fast for `rate` samples per
-    /// second, none is added.
+    /// A sheet with the given modes of a surface, its resonators and, if these or actuators load it, the residual
+    /// compliance of higher modes at these loads ([`Loaded::with_rest`]), so that the compliance at the loads is
+    /// accurate even with few modes. If an added mode would be too fast for `rate` samples per second, none is
+    /// added.
     ///
     /// # Errors
     /// Those of [`Plant::new`] and [`transducers`].

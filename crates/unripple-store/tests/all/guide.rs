@@ -11,7 +11,7 @@ const GUIDE: &str = include_str!("../../../../docs/surface-file.md");
 #[test]
 fn examples_load() {
     let examples = blocks(GUIDE, "```toml");
-    assert_eq!(examples.len(), 7);
+    assert_eq!(examples.len(), 8);
     for example in examples {
         if let Err(faults) = parse_surface(&example, "guide.toml") {
             panic!("{faults:#}");
@@ -73,7 +73,7 @@ fn ranges_are_those_of_the_reader() {
         );
         checked += 1;
     }
-    assert_eq!(checked, 48);
+    assert_eq!(checked, 57);
 }
 
 /// Unknown keys are answered with the list of known ones: the guide has exactly those.
@@ -84,6 +84,7 @@ fn keys_are_those_of_the_reader() {
         ("hole", false),
         ("sheet", true),
         ("scatterer", false),
+        ("lattice", false),
         ("drive", true),
         ("finger", true),
         ("actuator", false),

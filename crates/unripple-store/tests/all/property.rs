@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use unripple_core::{
     Actuator, ActuatorKind, Air, CoilDrive, Decay, Edge, Edges, Emission, Finger, Grain, Hole, Outline,
-    Patch, Point, Profile, Scatterer, ScattererKind, Shape, Sheet, Side, Surface, Uneven,
+    Patch, Point, Profile, Resonator, Scatterer, ScattererKind, Shape, Sheet, Side, Surface, Uneven,
 };
 use unripple_store::{BUILTINS, Drawing, parse_surface, parse_surface_with, read_curves, to_toml};
 
@@ -148,6 +148,15 @@ fn scatterer() -> impl Strategy<Value = ScattererKind> {
     ]
 }
 
+fn resonator() -> impl Strategy<Value = Resonator> {
+    (1e-9..100.0_f64, 1.0..1e5_f64, 0.1..1e6_f64).prop_map(|(mass, frequency, quality_factor)| Resonator {
+        at: Point::new(0.0, 0.0),
+        mass,
+        frequency,
+        quality_factor,
+    })
+}
+
 fn decay() -> impl Strategy<Value = Decay> {
     prop_oneof![
         (1e-5..1e3_f64).prop_map(Decay::Time),
@@ -248,6 +257,7 @@ prop_compose! {
         finger in (0.0..1.0_f64, 0.0..1e3_f64, 0.0..1e6_f64, 1e-4..0.1_f64),
         actuators in proptest::collection::vec((0.0..1.0_f64, 0.0..1.0_f64, kind(), 0.0..0.1_f64), 1..12),
         scatterers in proptest::collection::vec((0.0..1.0_f64, 0.0..1.0_f64, scatterer()), 0..4),
+        resonators in proptest::collection::vec((0.0..1.0_f64, 0.0..1.0_f64, resonator()), 0..4),
     ) -> Surface {
         let (w, h) = outline.extent();
         let place = |x: f64, y: f64| {
@@ -270,6 +280,8 @@ prop_compose! {
         let mut sheet = sheet;
         sheet.uneven.scatterers =
             scatterers.into_iter().map(|(x, y, kind)| Scatterer { at: place(x, y), kind }).collect();
+        let resonating = |(x, y, resonator)| Resonator { at: place(x, y), ..resonator };
+        sheet.uneven.resonators = resonators.into_iter().map(resonating).collect();
         let (mass, damping, stiffness, contact_radius) = finger;
         Surface {
             name,

@@ -111,7 +111,7 @@ fn scatterers() {
     let at = "at_mm = [50, 50]";
     assert_eq!(
         scatterer(&format!("{at}\nmass_mg = 5")),
-        "scatterer[0].kind: expected \"mass\" or \"disc\", found no such key"
+        "scatterer[0].kind: expected \"mass\", \"disc\" or \"resonator\", found no such key"
     );
     assert!(scatterer(&format!("{at}\nkind = \"mas\"\nmass_mg = 5")).ends_with("(nearest: \"mass\")"));
     assert!(
@@ -143,6 +143,48 @@ fn scatterers() {
     );
     let table = faults(&format!("{GOOD}[scatterer]\nat_mm = [1, 1]\n"));
     assert_eq!(table[0].expected, "a list of tables, each headed [[scatterer]]");
+}
+
+/// The text of the one fault with a lattice more.
+fn lattice(lines: &str) -> String {
+    let list = faults(&format!("{GOOD}[[lattice]]\n{lines}\n"));
+    assert_eq!(list.len(), 1, "{list:#?}");
+    list[0].to_string()
+}
+
+#[test]
+fn resonators_and_lattices() {
+    let tuned = "frequency_hz = 250\nquality_factor = 30";
+    let alone = "at_mm = [50, 50]\nkind = \"resonator\"";
+    assert!(
+        scatterer(&format!("{alone}\n{tuned}\nmass_g = 0"))
+            .starts_with("scatterer[0].mass_g: expected a number from 0.000001 to 100000 g, found 0")
+    );
+    let wrong = scatterer(&format!("{alone}\n{tuned}\nmass_g = 1\nmass_mg = 1"));
+    assert!(
+        wrong.starts_with("scatterer[0].mass_mg: expected this key only where kind = \"mass\""),
+        "{wrong}"
+    );
+    let grid = "from_mm = [10, 10]\nto_mm = [50, 40]";
+    assert!(lattice(&format!("{grid}\n{tuned}\nmass_g = 1\npitch_mm = 31")).contains("at most 30.0000 mm"));
+    let both = lattice(&format!("{grid}\n{tuned}\nmass_g = 1\npitch_mm = 10\nrows = 3"));
+    assert!(both.contains("either pitch_mm or columns and rows"), "{both}");
+    let masses = lattice(&format!("{grid}\n{tuned}\nmass_g = 1\nmass_ratio = 1\npitch_mm = 10"));
+    assert!(masses.starts_with("lattice[0].mass_ratio: expected one of them"), "{masses}");
+    let none = lattice(&format!("{grid}\n{tuned}\npitch_mm = 10"));
+    assert!(none.contains("lattice[0].mass_g") && none.contains("or mass_ratio instead"), "{none}");
+    let turned =
+        lattice(&format!("from_mm = [50, 10]\nto_mm = [40, 40]\n{tuned}\nmass_g = 1\npitch_mm = 10"));
+    assert!(turned.contains("to the right of from_mm and above it"), "{turned}");
+    let off =
+        lattice(&format!("from_mm = [900, 900]\nto_mm = [950, 950]\n{tuned}\nmass_g = 1\npitch_mm = 10"));
+    assert!(off.contains("places on the sheet"), "{off}");
+    let many = lattice(&format!("{grid}\n{tuned}\nmass_g = 1\ncolumns = 33\nrows = 32"));
+    assert!(many.contains("at most 1024 resonators in all, found 1056 resonators"), "{many}");
+    let limp =
+        GOOD.replace("material = \"BoPET\"", "young_gpa = 0\ndensity_kg_m3 = 1400\npoisson_ratio = 0.3");
+    let list = faults(&format!("{limp}[[lattice]]\n{grid}\n{tuned}\nmass_g = 1\npitch_mm = 10\n"));
+    assert!(list.len() == 1 && list[0].expected.contains("gives way at a point"), "{list:#?}");
 }
 
 #[test]

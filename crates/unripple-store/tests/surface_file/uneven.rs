@@ -2,7 +2,9 @@
 
 use crate::good::GOOD;
 use std::f64::consts::{FRAC_PI_6, PI};
-use unripple_core::{ActuatorKind, Grain, Patch, Point, Profile, Scatterer, ScattererKind, Surface};
+use unripple_core::{
+    ActuatorKind, Grain, Patch, Point, Profile, Resonator, Scatterer, ScattererKind, Surface,
+};
 use unripple_store::{parse_surface, to_toml};
 
 /// The good film with other lines; it comes back from its own file.
@@ -71,6 +73,31 @@ fn scatterers() {
     };
     assert_eq!(list[1].kind, disc(200e9, 7900.0, 0.29));
     assert_eq!(list[2].kind, disc(3e9, 1200.0, 0.4));
+}
+
+#[test]
+fn resonators_and_lattices() {
+    let more = "[[scatterer]]\nat_mm = [50, 40]\nkind = \"resonator\"\nmass_g = 2.5\nfrequency_hz = 180\nquality_factor = 40\n\
+                [[lattice]]\nfrom_mm = [10, 10]\nto_mm = [51, 35]\npitch_mm = 10\nmass_ratio = 0.5\nfrequency_hz = 250\n\
+                quality_factor = 30\nscatter_percent = 1.5\nseed = 7\n\
+                [[lattice]]\nfrom_mm = [60, 10]\nto_mm = [80, 40]\ncolumns = 4\nrows = 3\nmass_g = 0.1\nfrequency_hz = 90\n\
+                quality_factor = 10\n";
+    let film = surface("", "", more);
+    let uneven = &film.sheet.uneven;
+    let alone =
+        Resonator { at: Point::from_mm(50.0, 40.0), mass: 2.5e-3, frequency: 180.0, quality_factor: 40.0 };
+    assert_eq!(uneven.resonators, [alone]);
+    assert!(uneven.scatterers.is_empty() && uneven.is_uniform() && uneven.resonates());
+    let [pitched, counted] = uneven.lattices[..] else { panic!() };
+    // 41 x 25 mm hold 4 x 2 cells of 10 mm, in the middle.
+    assert_eq!(pitched.cells, [4, 2]);
+    assert!(pitched.pitch().iter().all(|pitch| (pitch - 0.01).abs() < 1e-15));
+    assert!(pitched.corners[0].distance(Point::from_mm(10.5, 12.5)) < 1e-15);
+    let cell = film.sheet.density * film.sheet.thickness * 1e-4;
+    assert!((pitched.mass / (0.5 * cell) - 1.0).abs() < 1e-12);
+    assert_eq!((pitched.scatter, pitched.seed), (0.015, 7));
+    assert_eq!((counted.cells, counted.mass, counted.scatter, counted.seed), ([4, 3], 1e-4, 0.0, 1));
+    assert_eq!(film.resonators().len(), 1 + 8 + 12);
 }
 
 #[test]
