@@ -26,7 +26,7 @@ const FITS: f64 = 1e-9;
 
 /// The sheet under a lattice, as far as the file is without fault.
 pub(super) struct Under<'a> {
-    /// Its outline.
+    /// Its outline, with its holes.
     pub ground: Option<&'a Ground>,
     /// Its mass per area, in kg/m².
     pub density: Option<f64>,

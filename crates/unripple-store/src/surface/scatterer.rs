@@ -41,7 +41,7 @@ pub(super) const STIFF_ENOUGH: &str = "no lattice where young_gpa is 0: without 
 pub(super) struct Attached {
     /// Masses and discs.
     pub scatterers: Vec<Scatterer>,
-    /// Resonators.
+    /// Resonators that stand alone.
     pub resonators: Vec<Resonator>,
 }
 
