@@ -182,11 +182,11 @@ fn springs_anywhere(surface: &Surface) -> usize {
     rims.filter(|(_, edge)| matches!(edge, Edge::Elastic { .. })).count()
 }
 
-/// Whether all stiffness of a sheet is its own, and no air moves with it.
+/// Whether all stiffness of a sheet is its own, and neither air nor resonators move with it.
 fn plain(surface: &Surface) -> bool {
     let stiffens = |kind: &ScattererKind| matches!(kind, ScattererKind::Disc { .. });
     let stuck = surface.sheet.uneven.scatterers.iter().any(|scatterer| stiffens(&scatterer.kind));
-    surface.sheet.air == Air::None && !stuck
+    surface.sheet.air == Air::None && !stuck && !surface.sheet.uneven.resonates()
 }
 
 /// Whether a common factor on the free quantities is one on all stiffness of the surface.

@@ -10,6 +10,10 @@ use unripple::core::{Point, Surface};
 use unripple_calibrate::{FitOptions, Fitted, Verdict};
 use unripple_store::{Library, StoreError};
 
+/// The note on a fit of a surface with resonators: its basis is the sheet with its actuators.
+const WITHOUT_RESONATORS: &str = "the fitted model has no resonators: what those of the surface file do to the responses is taken for \
+                                  something else";
+
 /// Largest number of half waves of a profile, and of stray loads: beyond it, a fit takes hours.
 pub(crate) const MOST: usize = 8;
 
@@ -54,6 +58,9 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     report.left_out.clone_from(&probed.left_out);
     report.doubts.clone_from(&probed.doubts);
     report.notes = warned.into_iter().map(|note| note.text).chain(probed.notes.clone()).collect();
+    if surface.sheet.uneven.resonates() {
+        report.notes.push(WITHOUT_RESONATORS.into());
+    }
     let why = match &fitted.verdict {
         Verdict::Good => None,
         Verdict::Doubtful { why, .. } => Some(why.clone()),
