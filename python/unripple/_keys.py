@@ -46,10 +46,16 @@ TABLES: dict[str, tuple[str, ...]] = {
 
 #: Tables of the file, given as mappings, and lists of tables, given as lists of mappings.
 SECTIONS = ("outline", "sheet", "drive", "finger", "actuator_defaults")
-LISTS = ("hole", "scatterer", "actuator")
+LISTS = ("hole", "scatterer", "lattice", "actuator")
 
 #: Lists by the names that lists have in Python.
-PLURALS = {"actuators": "actuator", "holes": "hole", "scatterers": "scatterer", "layers": "layer"}
+PLURALS = {
+    "actuators": "actuator",
+    "holes": "hole",
+    "scatterers": "scatterer",
+    "lattices": "lattice",
+    "layers": "layer",
+}
 
 #: The table of each key that stands alone.
 FLAT = {key: table for table, keys in TABLES.items() for key in keys}

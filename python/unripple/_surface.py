@@ -42,8 +42,8 @@ class Surface(Reporting, Focusing):
     **keys
         Keys of a surface file, in its own units: in place of a file, or changes to `source`. A key may stand alone
         (``tension_n_per_m=220``), within its table (``sheet={"tension_n_per_m": 220}``), or be a path
-        (``**{"actuator[0].at_mm": [12, 31]}``). ``actuators``, ``holes``, ``scatterers`` and ``layers`` are lists of tables; an actuator
-        that is a force may be a place alone. None removes a key. ``docs/surface-file.md`` has all keys.
+        (``**{"actuator[0].at_mm": [12, 31]}``). ``actuators``, ``holes``, ``scatterers``, ``lattices`` and ``layers`` are lists of
+        tables; an actuator that is a force may be a place alone. None removes a key. ``docs/surface-file.md`` has all keys.
 
     Attributes
     ----------

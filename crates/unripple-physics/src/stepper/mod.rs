@@ -19,7 +19,8 @@
 //! bl(i + i⁺)/2 with L(i⁺ - i)/dt + R(i + i⁺)/2 = -blΔu/dt. All have the form F = -AΔu + (known terms), A ≥ 0, and the system
 //! (I + SA)F = …, with a row for each load, is solved at each step.
 //!
-//! The housing of an exciter is one more coordinate, which moves freely as a mode of frequency 0; its spring, damper and coil are a load
+//! The housing of an exciter, or the mass of a resonator, is one more coordinate, which moves freely as a mode of frequency 0; its spring,
+//! damper and coil are a load
 //! for which w_j has the weight -1/√M there, so that Δu_j is the displacement of the contact relative to the housing.
 //!
 //! # Why it cannot gain energy

@@ -51,7 +51,7 @@ fn resonators_of_vanishing_mass_leave_the_bare_sheet() {
     let bare = modal(&surface, &ResponseOptions::default());
     let mut loaded = surface.clone();
     loaded.sheet.uneven.resonators =
-        vec![resonator(40.0, 30.0, 1e-14, 701.0, 30.0), resonator(101.0, 77.0, 1e-14, 1204.0, 300.0)];
+        vec![resonator(40.0, 30.0, 1e-18, 701.0, 30.0), resonator(101.0, 77.0, 1e-18, 1204.0, 300.0)];
     let loaded = modal(&loaded, &ResponseOptions::default());
     for pole in &bare.poles {
         let nearest = loaded.poles.iter().map(|other| (other.omega / pole.omega - 1.0).abs());
