@@ -1,7 +1,7 @@
 //! Truth: resonators on a plate against their closed form, the whole quadratic eigenvalue problem, exact transfer matrices of a strip, the
 //! dispersion relation of a lattice, and the bare plate in the limit of no mass.
 
-use crate::coupled_common::{force, modal, modal_transfer};
+use crate::coupled_common::{force, modal, modal_transfer, transfer};
 use crate::exciter_common::{MODES, PROBE, Sines, poles, row};
 use crate::stepper_common;
 use std::f64::consts::{PI, TAU};
@@ -230,21 +230,77 @@ fn a_strip_with_resonators_against_exact_transfer_matrices() {
     }
 }
 
+/// 12 x 8 resonators of 200 Hz on the plate, of half its mass.
+fn lattice(quality_factor: f64) -> Lattice {
+    Lattice {
+        corners: [Point::new(0.0, 0.0), Point::new(0.3, 0.2)],
+        cells: [12, 8],
+        mass: 0.5 * 2.7 * 0.025 * 0.025,
+        frequency: 200.0,
+        quality_factor,
+        scatter: 0.0,
+        seed: 1,
+    }
+}
+
+/// Bending stiffness of the plate, in N·m.
+fn bending() -> f64 {
+    70e9 * 1e-9 / 12.0 / (1.0 - 0.33 * 0.33)
+}
+
+/// Time reversal of one frequency has the shape of the real part of the mobility between places and the target, whose mean over targets and
+/// directions is J0(kr) far from edges. Over so few waves and targets it is that within some per cent.
+#[test]
+fn a_focus_in_a_lattice_is_as_small_as_its_waves_and_below_the_limit_of_the_bare_plate() {
+    let mut surface = plate();
+    surface.sheet.uneven.lattices = vec![lattice(30.0)];
+    let first = surface.actuators[0].clone();
+    let targets: Vec<Point> = [100.0, 125.0, 150.0, 175.0, 200.0]
+        .into_iter()
+        .flat_map(|x| [80.0, 100.0, 120.0].map(|y| Point::from_mm(x, y)))
+        .collect();
+    surface.actuators = targets.iter().map(|at| Actuator { at: *at, ..first.clone() }).collect();
+    let modal = modal(&surface, &ResponseOptions::default());
+    for x in [0.95, 0.97] {
+        let omega = TAU * 200.0 * x;
+        let s = c64::new(0.0, omega);
+        let transfers: Vec<c64> = modal.poles.iter().map(|pole| transfer(pole, s)).collect();
+        let mean = |radius: f64| -> f64 {
+            let around = |(a, at): (usize, &Point)| -> f64 {
+                let turned = |i: u8| f64::from(i) * PI / 4.0;
+                let place = |i| Point::new(at.x + radius * turned(i).cos(), at.y + radius * turned(i).sin());
+                let places: Vec<Point> = (0..8).map(place).collect();
+                let read = modal.shapes.at_all(&places);
+                let one = |p: usize| -> f64 {
+                    let each = transfers.iter().enumerate();
+                    each.map(|(m, t)| t.re * modal.input[(a, m)] * read[(p, m)]).sum()
+                };
+                (0..8).map(one).sum()
+            };
+            targets.iter().enumerate().map(around).sum()
+        };
+        let (mut inside, mut outside, peak) = (0.02, 0.07, mean(0.0));
+        for _ in 0..16 {
+            let middle = 0.5 * (inside + outside);
+            if mean(middle) > 0.5 * peak { inside = middle } else { outside = middle }
+        }
+        let lossy = c64::new(0.0, x / 30.0);
+        let factor = (lossy + 1.0) / (lossy + (1.0 - x * x)) * 0.5 + 1.0;
+        let bare = (2.7 * omega * omega / bending()).powf(0.25);
+        let wavenumber = bare * factor.sqrt().sqrt().re;
+        // J0 is a half at 1.5211.
+        assert!((inside * wavenumber / 1.5211 - 1.0).abs() < 0.1, "{x}: {inside} m, {wavenumber} rad/m");
+        assert!(inside < 0.7 * 1.5211 / bare, "{x}: {inside} m, bare {} m", 1.5211 / bare);
+    }
+}
+
 #[test]
 fn a_lattice_has_the_modes_and_the_gap_of_its_dispersion_relation() {
     let mut surface = plate();
     let (ratio, frequency) = (0.5, 200.0);
-    surface.sheet.uneven.lattices = vec![Lattice {
-        corners: [Point::new(0.0, 0.0), Point::new(0.3, 0.2)],
-        cells: [12, 8],
-        mass: ratio * 2.7 * 0.025 * 0.025,
-        frequency,
-        quality_factor: 1e5,
-        scatter: 0.0,
-        seed: 1,
-    }];
+    surface.sheet.uneven.lattices = vec![lattice(1e5)];
     let modes = SurfaceModes::solve(&surface, 500.0, 1e-6).unwrap().loaded.unwrap();
-    let stiffness = 70e9 * 1e-9 / 12.0 / (1.0 - 0.33 * 0.33);
+    let stiffness = bending();
     // At the centres of cells sines of different waves are orthogonal, so that each pair of branches is exact.
     for (m, n) in [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (3.0, 1.0)] {
         let square = (m * PI / 0.3_f64).powi(2) + (n * PI / 0.2_f64).powi(2);
