@@ -65,6 +65,9 @@ pub const CHECK_INTERVAL: Duration = Duration::from_millis(100);
 /// Name of the input that records a velocity probe on the surface, in [`Layout::inputs`].
 pub const PROBE: &str = "probe";
 
+/// Name of the input that records the force of a hammer, in N.
+pub const FORCE: &str = "force";
+
 /// The configuration of a device: name, sample rate, block length, channels and full scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {

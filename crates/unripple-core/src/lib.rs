@@ -60,7 +60,7 @@ mod uneven;
 pub use cache::{Cache, Cached};
 pub use cost::Cost;
 pub use cycle::{Cycle, Work};
-pub use device::{CHECK_INTERVAL, Device, DeviceError, Layout, PROBE, Server, State, Status};
+pub use device::{CHECK_INTERVAL, Device, DeviceError, FORCE, Layout, PROBE, Server, State, Status};
 pub use drive::Drive;
 pub use encoded::{Encoded, encode_matrix};
 pub use error::CoreError;

@@ -1,4 +1,6 @@
-//! Findings of a recording besides the responses: clock error, lost samples, change of tension, knocks, harmonics.
+//! Findings of a recording besides the responses: clock error, lost samples, change of tension, knocks, harmonics, blows.
+
+use super::BlowAccount;
 
 /// A gap in a recording: samples that were lost or recorded twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +68,8 @@ pub struct Account {
     /// Number of sweeps whose sensor signals differ from those of the first take for other reasons than
     /// noise or a knock, and number of all sweeps; `None` unless the former are many.
     pub unlike: Option<[usize; 2]>,
+    /// Blows of a hammer with a force sensor at the place; `None` for other ways of measuring.
+    pub blows: Option<BlowAccount>,
     /// Accounts of further takes of the same place, in their order; the fields above are those of the first take.
     pub repeats: Vec<Account>,
 }
@@ -95,6 +99,7 @@ impl Account {
             said = takes.flat_map(named).collect();
         }
         said.extend(self.distorted());
+        said.extend(self.blows.iter().flat_map(BlowAccount::said));
         said.extend(self.knocks.iter().map(|knock| {
             let (at, left) =
                 (knock.at_s, if knock.left_out { ": the sweeps that it hit were left out" } else { "" });

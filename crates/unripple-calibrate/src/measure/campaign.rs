@@ -1,6 +1,6 @@
 //! Measurement of all points of a plan, one by one, into a sink from which a later run can resume.
 
-use super::{Channel, Listen, Rig, Session, TapSession};
+use super::{Channel, HammerSession, Listen, Rig, Session, TapSession};
 use crate::CalibrateError;
 use std::ops::ControlFlow;
 use unripple_core::Point;
@@ -33,13 +33,15 @@ pub struct Progress {
     pub fault: Option<String>,
 }
 
-/// Way of measuring a place: by a probe, or by taps.
+/// Way of measuring a place: by a probe, by taps, or by blows of a hammer with a force sensor.
 #[derive(Clone, Debug)]
 pub enum Way {
     /// By a probe on the surface, while the actuators drive.
     Probe(Box<Session>),
     /// By taps on the surface, which the actuators record as sensors.
     Tap(Box<TapSession>),
+    /// By blows of a hammer whose force is recorded, as the actuators' signals as sensors are.
+    Hammer(Box<HammerSession>),
 }
 
 impl Way {
@@ -60,6 +62,7 @@ impl Way {
                 })
             }
             Self::Tap(session) => session.measure(rig, number, at, attempt),
+            Self::Hammer(session) => session.measure(rig, number, at, attempt),
         }
     }
 
@@ -67,6 +70,7 @@ impl Way {
         match self {
             Self::Probe(session) => session.fault(channel),
             Self::Tap(session) => session.fault(channel),
+            Self::Hammer(session) => session.fault(channel),
         }
     }
 }

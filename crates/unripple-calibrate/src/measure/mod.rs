@@ -1,10 +1,13 @@
-//! Measuring responses through a device, with a probe on the surface or by tapping it.
+//! Measuring responses through a device, with a probe on the surface, by tapping it, or by blows of a hammer with a force sensor.
 
 mod account;
 mod apart;
+mod blow;
 mod campaign;
 mod channel;
 mod force;
+mod hammer;
+mod hammering;
 mod heard;
 mod hearing;
 mod knock;
@@ -24,9 +27,12 @@ mod tones;
 mod wires;
 
 pub use account::{Account, Knocked, Lost};
+pub use blow::{Blow, BlowFault, blows, usable_to_hz};
 pub use campaign::{Progress, Sink, Way, campaign};
 pub use channel::{BandQuality, Channel};
 pub use force::TapOptions;
+pub use hammer::{BlowAccount, Struck, hammered, struck};
+pub use hammering::HammerSession;
 pub use hearing::Hearing;
 pub use latency::latency;
 pub use options::{MOST_KEPT, MOST_REPEATS, MeasureOptions, slowest_decay};

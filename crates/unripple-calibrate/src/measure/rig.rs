@@ -23,4 +23,7 @@ pub trait Rig {
     /// # Errors
     /// [`CalibrateError::Rig`] if the surface cannot be tapped there.
     fn tap(&mut self, number: usize, at: Point, attempt: u64) -> Result<(), CalibrateError>;
+
+    /// Says why the last tap or blow at a point could not be used, before it is asked for again. Rigs without people need not listen.
+    fn refused(&mut self, _number: usize, _why: &str) {}
 }

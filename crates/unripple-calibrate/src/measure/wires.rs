@@ -1,12 +1,12 @@
-//! Assignment of a device's channels to actuators, sensors, probe and reference.
+//! Assignment of a device's channels to actuators, sensors, probe, reference and the force of a hammer.
 
 use crate::CalibrateError;
-use unripple_core::{Layout, PROBE, Port};
+use unripple_core::{FORCE, Layout, PROBE, Port};
 
 /// Name of the input that records the sent signal, the reference channel.
 pub const REFERENCE: &str = "reference";
 
-/// Channels of a device that are assigned to actuators, their sensors, a probe and a reference.
+/// Channels of a device that are assigned to actuators, their sensors, a probe, a reference and the force of a hammer.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wires {
     /// Index of each actuator's output.
@@ -17,6 +17,8 @@ pub struct Wires {
     pub probe: Option<usize>,
     /// Index of the input that records the sent signal.
     pub reference: Option<usize>,
+    /// Index of the input that records the force of a hammer.
+    pub force: Option<usize>,
 }
 
 impl Wires {
@@ -62,7 +64,8 @@ impl Wires {
         let sensors = sensors.or(ordered).unwrap_or_default();
         let spare = in_order && sensors.len() < layout.inputs.len();
         let probe = find(&layout.inputs, PROBE).or_else(|| spare.then_some(sensors.len()));
-        Ok(Self { drives, sensors, probe, reference: find(&layout.inputs, REFERENCE) })
+        let (reference, force) = (find(&layout.inputs, REFERENCE), find(&layout.inputs, FORCE));
+        Ok(Self { drives, sensors, probe: probe.filter(|input| force != Some(*input)), reference, force })
     }
 }
 

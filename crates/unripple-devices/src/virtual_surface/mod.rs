@@ -14,7 +14,7 @@ use crate::{DevicesError, Interface, Truth};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use unripple_core::clock::Instant;
-use unripple_core::{Device, DeviceError, Layout, PROBE, Point, State, Status, Surface, require};
+use unripple_core::{Device, DeviceError, FORCE, Layout, PROBE, Point, State, Status, Surface, require};
 use unripple_physics::stepper::{
     Channel, FaultySurface, InjectedFaults, Plant, Reading, StepperOptions, VirtualSurface,
 };
@@ -43,6 +43,8 @@ pub struct VirtualOptions {
     pub accuracy: Accuracy,
     /// Largest number of simultaneous taps.
     pub taps: usize,
+    /// Whether taps are blows of a hammer with a force sensor, recorded by an input [`FORCE`] (N) behind that of the probe.
+    pub hammer: bool,
     /// Whether each exchange of a block takes the block's duration in real time; otherwise it is as fast as
     /// the computation.
     pub real_time: bool,
@@ -59,6 +61,7 @@ impl Default for VirtualOptions {
             max_hz: None,
             accuracy: Accuracy::from(1e-6),
             taps: 1,
+            hammer: false,
             real_time: false,
         }
     }
@@ -85,7 +88,8 @@ impl VirtualOptions {
 /// A simulated surface as a device, with actuators, their sensors and a probe.
 ///
 /// There is an output for each actuator, by its name; an input for the sensor of each, by the same names;
-/// then the input [`PROBE`], the normal velocity (m/s) at a place that can be moved. A sample of 1 is a
+/// then the input [`PROBE`], the normal velocity (m/s) at a place that can be moved; with [`VirtualOptions::hammer`] the input [`FORCE`]
+/// last, the force of all taps (N). A sample of 1 is a
 /// drive at the surface's emission limit. The signal of an actuator's sensor is that of the motion alone, in
 /// the sensor's unit ([`Sensor`](unripple_physics::Sensor)): m/s for an ideal force, V for a coil driven by
 /// a current, A for one driven by a voltage and for a patch. Time passes only in [`Device::exchange`].
@@ -153,15 +157,16 @@ impl Virtual {
         let faults = options.faults.clone();
         let surface_at_work = FaultySurface::new(stepped, faults, options.block)?.with_spare(options.taps)?;
         let names: Vec<String> = surface.actuators.iter().map(|a| a.name.clone()).collect();
+        let hammer = options.hammer.then(|| FORCE.to_owned());
         let layout = Layout {
             device: "virtual".into(),
             rate: surface.emission.rate,
             block: options.block,
-            inputs: names.iter().cloned().chain([PROBE.to_owned()]).collect(),
+            inputs: names.iter().cloned().chain([PROBE.to_owned()]).chain(hammer).collect(),
             outputs: names,
             full_scale: surface.emission.limit,
         };
-        let converter = Converter::new(&options.interface, &layout)?;
+        let converter = Converter::new(&with_force(&options.interface, &layout), &layout)?;
         let workings = Workings::new(surface_at_work, converter, &layout, options.taps, place);
         Ok(Self {
             layout,
@@ -211,6 +216,19 @@ impl Virtual {
             std::thread::sleep(left);
         }
     }
+}
+
+/// An interface whose lists, made for the inputs up to the probe, have an entry for the force of a hammer, too: without gain and noise.
+fn with_force(interface: &Interface, layout: &Layout) -> Interface {
+    let mut interface = interface.clone();
+    let shorter = |list: &[f64]| layout.inputs.last().is_some_and(|last| last == FORCE) && list.len() + 1 == layout.inputs.len();
+    if shorter(&interface.heard_gains) {
+        interface.heard_gains.push(1.0);
+    }
+    if shorter(&interface.noise) {
+        interface.noise.push(0.0);
+    }
+    interface
 }
 
 impl Device for Virtual {

@@ -139,9 +139,17 @@ impl Workings {
             .map_err(|error| error.to_string())?;
         let (probe, watched) = self.probes.split_at(self.block);
         self.watch.keep(watched, self.block);
+        let (to_probe, to_force) = self.heard[wired..].split_at_mut(self.block);
+        to_force.fill(0.0);
         match self.surface.lost() > lost {
-            true => self.heard[wired..].fill(0.0),
-            false => self.heard[wired..].copy_from_slice(probe),
+            true => to_probe.fill(0.0),
+            false => {
+                to_probe.copy_from_slice(probe);
+                // The planes of all taps, if there is an input for their force.
+                for plane in self.drive[wired..].chunks_exact(self.block) {
+                    to_force.iter_mut().zip(plane).for_each(|(to, force)| *to += force);
+                }
+            }
         }
         self.heard[..wired].copy_from_slice(&self.sensors[..wired]);
         self.converter.hear(self.block, &mut self.heard);
