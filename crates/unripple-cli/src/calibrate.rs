@@ -42,6 +42,7 @@ fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
         input_scales: of("--input-scale", text_forms::input_scales(&options.input_scale))?,
         without: options.without.clone(),
         probe_delay_s: options.probe_delay_ms.map(|ms| ms / 1e3),
+        table: options.table.clone(),
         no_model: options.no_model,
         resample: options.resample,
         check_levels: options.check_levels,

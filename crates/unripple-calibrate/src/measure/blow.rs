@@ -47,7 +47,9 @@ pub enum BlowFault {
         share: f64,
     },
     /// The force or a sensor's signal is clipped.
-    #[error("overload: expected a signal below full scale, found {samples} samples at the largest value of {channel}")]
+    #[error(
+        "overload: expected a signal below full scale, found {samples} samples at the largest value of {channel}"
+    )]
     Overload {
         /// What is clipped, in words.
         channel: String,
@@ -63,7 +65,9 @@ pub enum BlowFault {
         found: f64,
     },
     /// The force pulls.
-    #[error("reversed: expected a force that pushes (above 0), found one of {peak:.3} N; a reversed input has a negative scale")]
+    #[error(
+        "reversed: expected a force that pushes (above 0), found one of {peak:.3} N; a reversed input has a negative scale"
+    )]
     Pulls {
         /// Peak force, in N.
         peak: f64,
@@ -145,11 +149,7 @@ fn hits(force: &[f64], noise: f64, least: f64) -> Vec<Hit> {
 }
 
 /// A blow cut out of the force, from the hits that belong to it.
-fn one(
-    force: &[f64],
-    hits: &[Hit],
-    (rate, window, noise): (f64, usize, f64),
-) -> Result<Blow, BlowFault> {
+fn one(force: &[f64], hits: &[Hit], (rate, window, noise): (f64, usize, f64)) -> Result<Blow, BlowFault> {
     let main = hits.iter().copied().fold((0, 0.0), |most: Hit, hit| if hit.1 > most.1 { hit } else { most });
     let other = hits.iter().filter(|hit| hit.0 != main.0 && hit.1 >= SECOND * main.1);
     let other = other.copied().fold((0, 0.0), |most: Hit, hit| if hit.1 > most.1 { hit } else { most });
@@ -192,7 +192,8 @@ pub fn usable_to_hz<'a>(blows: impl Iterator<Item = &'a Blow> + Clone, rate: f64
                 let (sin, cos) = (TAU * hz * i as f64 / rate).sin_cos();
                 [f * cos, f * sin]
             };
-            let [re, im] = blow.force.iter().enumerate().map(turn).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+            let [re, im] =
+                blow.force.iter().enumerate().map(turn).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
             re * re + im * im
         };
         blows.clone().map(one).sum()

@@ -7,7 +7,7 @@ use crate::CalibrateError;
 use crate::signals::{Band, CrossSpectra, Inversion, Quality, band_powers, snr_db};
 
 /// Regularisation of the deconvolution, relative to the strongest line of the forces' power: 20 dB down, where the usable band ends, it
-/// makes responses 1 % too weak, and beyond, noise is not amplified without bound.
+/// makes responses 1 % too weak.
 const FLOOR: f64 = 1e-4;
 
 /// Share at the end of a blow's recording that counts as noise, where there is one blow only.
@@ -36,8 +36,8 @@ impl BlowAccount {
         let mut said = Vec::new();
         if let Some(hz) = self.usable_to_hz {
             said.push(format!(
-                "above {hz:.0} Hz the force is more than 20 dB below its level at low frequencies: responses there are not to be relied \
-                 on (a harder tip reaches further)"
+                "above {hz:.0} Hz the force is more than 20 dB below its level at low frequencies: responses are limited to what is below (a \
+                 harder tip reaches further)"
             ));
         }
         let mut kinds: Vec<(String, usize)> = Vec::new();
@@ -111,7 +111,8 @@ pub fn struck(
 /// estimate: the cross spectra of force and signal over the power spectra of the force, both summed over the blows. `refused` are the blows
 /// that were not used.
 ///
-/// Signal-to-noise ratio and coherence are those of the band in which the force is [usable](BlowAccount::usable_to_hz); with several blows
+/// Responses are limited to the band, and to where the force is [usable](BlowAccount::usable_to_hz), as signal-to-noise ratio and coherence
+/// are; with several blows
 /// they follow from each other, `γ² / (1 − γ²)` for one blow, after the bias of `n` blows is removed.
 ///
 /// Source: D. J. Ewins, "Modal Testing" (2000), section 3.8; J. S. Bendat, A. G. Piersol, "Random Data" (2010), section 9.2.
@@ -140,7 +141,7 @@ pub fn hammered(
         let mut spectra = CrossSpectra::new(length.max(samples).max(1), rate)?;
         blows.iter().try_for_each(|one| spectra.add(&one.blow.force, &one.heard[sensor]))?;
         let mut response = vec![0.0; samples];
-        let inversion = Inversion { band: Some(band), regularisation: FLOOR, ..Inversion::default() };
+        let inversion = Inversion { band: Some(trusted), regularisation: FLOOR, ..Inversion::default() };
         spectra.response(&inversion, &mut response)?;
         let alone = match blows {
             [one] => Some(&one.heard[sensor][..]),
@@ -159,15 +160,18 @@ pub fn hammered(
         channel.responses.push(response);
     }
     let peaks_n = blows.iter().map(|one| one.blow.peak()).collect();
-    channel.account.blows =
-        Some(BlowAccount { used: blows.len(), peaks_n, usable_to_hz: usable, refused });
+    channel.account.blows = Some(BlowAccount { used: blows.len(), peaks_n, usable_to_hz: usable, refused });
     Ok(channel)
 }
+
+/// Beginning of the upper edge of a band that the force limits, relative to its end: softer would take more of what was measured, sharper
+/// would ring for longer than a response of 10 ms.
+const EDGE: f64 = 0.95;
 
 /// A band that ends at a frequency (Hz), or at its own end.
 fn up_to(band: Band, hz: f64) -> Band {
     let top = hz.max(1.1 * band.low[1]).min(band.high[1]);
-    Band { high: [band.high[0].min(top), top], ..band }
+    Band { high: [band.high[0].min(EDGE * top).max(band.low[1]), top], ..band }
 }
 
 /// Signal-to-noise ratio in dB of the mean of `count` blows whose coherence is `shared`: noise alone has a coherence of 1 / `count`.
@@ -193,7 +197,8 @@ fn end(heard: &[f64]) -> &[f64] {
 /// Quality of a response by thirds of an octave.
 fn by_thirds(spectra: &CrossSpectra, alone: Option<&[f64]>, (rate, band): (f64, Band)) -> Vec<BandQuality> {
     let thirds = thirds(band);
-    let powers = alone.map(|heard| [band_powers(heard, rate, &thirds), band_powers(end(heard), rate, &thirds)]);
+    let powers =
+        alone.map(|heard| [band_powers(heard, rate, &thirds), band_powers(end(heard), rate, &thirds)]);
     let one = |(index, [from, to]): (usize, &[f64; 2])| {
         let hz = (from * to).sqrt();
         match &powers {

@@ -47,7 +47,8 @@ impl HammerSession {
         if wires.sensors.len() != surface.actuators.len() {
             return Err(lacks("a sensor for each actuator, under its name"));
         }
-        let force = wires.force.ok_or_else(|| lacks(&format!("one that is called `{FORCE}`, the hammer's")))?;
+        let force =
+            wires.force.ok_or_else(|| lacks(&format!("one that is called `{FORCE}`, the hammer's")))?;
         let window = options.apart(sweep.rate);
         // A blow may come late in the recording, which is twice as long as what follows the blow.
         let samples = 2 * window;

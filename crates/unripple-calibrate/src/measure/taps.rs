@@ -114,14 +114,23 @@ impl TapSession {
             let attempt = attempt * self.options.repeats as u64 + repeat;
             rig.ready(number, at, attempt)?;
             rig.tap(number, at, attempt)?;
-            let heard = record(rig.device(), &[], &[], &self.sensors, self.heard)?;
-            let scaled = |(sound, scale): (&Vec<f64>, &f64)| {
-                let mut sound = shift(sound, -self.options.latency);
-                sound.iter_mut().for_each(|x| *x *= scale);
-                sound
-            };
-            taps.push(heard.iter().zip(&self.scales).map(scaled).collect::<Vec<_>>());
+            taps.push(record(rig.device(), &[], &[], &self.sensors, self.heard)?);
         }
+        self.responses(&taps, at)
+    }
+
+    /// The responses at a place (m) from recordings of taps there by the sensors, `[tap][sensor][sample]` in the device's units.
+    ///
+    /// # Errors
+    /// Those of [`tapped`].
+    pub fn responses(&self, taps: &[Vec<Vec<f64>>], at: Point) -> Result<Channel, CalibrateError> {
+        let scaled = |(sound, scale): (&Vec<f64>, &f64)| {
+            let mut sound = shift(sound, -self.options.latency);
+            sound.iter_mut().for_each(|x| *x *= scale);
+            sound
+        };
+        let scale = |heard: &Vec<Vec<f64>>| heard.iter().zip(&self.scales).map(scaled).collect::<Vec<_>>();
+        let taps: Vec<Vec<Vec<f64>>> = taps.iter().map(scale).collect();
         let samples = self.options.samples(self.rate);
         let known = (&self.expected(at)[..], &self.options.without[..]);
         let mut found = tapped(&taps, known, samples, (self.rate, self.band), &self.tap)?;

@@ -20,6 +20,7 @@ mod fit_reach;
 mod fit_truth;
 mod fit_truths;
 mod frequencies;
+mod hammer;
 #[path = "../heard_bench/mod.rs"]
 mod heard_bench;
 mod kinds;

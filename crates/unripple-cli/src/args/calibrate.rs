@@ -88,6 +88,10 @@ pub struct CalibrateOptions {
     /// How points are measured.
     #[arg(long, value_enum, default_value_t, help_heading = heading::POINTS)]
     pub by: WayName,
+    /// Tape, by taps or hammer: table (CSV) with the columns file, x_mm and y_mm, which says where each file was recorded; by default the
+    /// files are point-001.wav and so on, in the order of the points.
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["grid_mm", "at"], help_heading = heading::TAPE)]
+    pub table: Option<PathBuf>,
     /// Number of recordings of each point, which are averaged, or of taps at each point: 1 to 99.
     #[arg(long, value_name = "N", default_value_t = 1, help_heading = heading::POINTS)]
     pub repeats: usize,
@@ -104,7 +108,7 @@ pub struct CalibrateOptions {
     /// Repeatable.
     #[arg(long, value_name = "NAME=CHANNEL", help_heading = heading::WIRING)]
     pub wire: Vec<String>,
-    /// Value of an input at full scale: in m/s for the probe, in the sensor's unit for an actuator; negative if the input is
+    /// Value of an input at full scale: in m/s for the probe, in N for the force of a hammer, in the sensor's unit for an actuator; negative if the input is
     /// reversed. Without a name it applies to all inputs. Repeatable. Without this option absolute levels are unknown.
     #[arg(long, value_name = "[NAME=]SCALE", allow_hyphen_values = true, help_heading = heading::WIRING)]
     pub input_scale: Vec<String>,

@@ -76,6 +76,8 @@ names! {
         Probe,
         /// With taps at the point, while actuators sense.
         Tap,
+        /// With blows of a hammer at the point, whose force is recorded, while actuators sense.
+        Hammer,
     }
 
     /// Focusing methods by their names on the command line and in reports.

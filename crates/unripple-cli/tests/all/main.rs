@@ -10,6 +10,7 @@ mod bounds;
 mod cache;
 mod calibrate;
 mod calibrate_bands;
+mod calibrate_hammer;
 mod calibrate_taps;
 mod chosen;
 #[path = "../common/mod.rs"]

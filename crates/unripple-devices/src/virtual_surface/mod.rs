@@ -221,7 +221,9 @@ impl Virtual {
 /// An interface whose lists, made for the inputs up to the probe, have an entry for the force of a hammer, too: without gain and noise.
 fn with_force(interface: &Interface, layout: &Layout) -> Interface {
     let mut interface = interface.clone();
-    let shorter = |list: &[f64]| layout.inputs.last().is_some_and(|last| last == FORCE) && list.len() + 1 == layout.inputs.len();
+    let shorter = |list: &[f64]| {
+        layout.inputs.last().is_some_and(|last| last == FORCE) && list.len() + 1 == layout.inputs.len()
+    };
     if shorter(&interface.heard_gains) {
         interface.heard_gains.push(1.0);
     }

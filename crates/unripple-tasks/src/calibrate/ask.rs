@@ -1,7 +1,7 @@
 //! Options of the task `calibrate`.
 
-use crate::record::Request;
-use crate::{DeviceAsk, Place, SurfaceAsk};
+use crate::record::{Request, Visit};
+use crate::{DeviceAsk, Place, SurfaceAsk, TaskError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -15,6 +15,8 @@ pub enum By {
     Probe,
     /// With taps at the place, while the actuators' sensors record.
     Tap,
+    /// With blows of a hammer at the place, whose force is recorded beside the actuators' sensors.
+    Hammer,
 }
 
 /// Scales of the inputs: the value that a sample at full scale (1) stands for.
@@ -59,6 +61,9 @@ pub struct Ask {
     pub without: Vec<String>,
     /// Delay of the probe relative to the sensors, in s, such as that of a vibrometer's decoder; by default it is estimated.
     pub probe_delay_s: Option<f64>,
+    /// For recordings of taps or blows made elsewhere (tape): table (CSV) of the columns `file`, `x_mm` and `y_mm`, which says where each file
+    /// was recorded; by default the files are `point-001.wav` and so on.
+    pub table: Option<PathBuf>,
     /// Skip all comparisons with a model, for a surface that the model cannot describe, such as a whole
     /// phone or a sheet with ribs.
     pub no_model: bool,
@@ -94,6 +99,7 @@ impl Default for Ask {
             input_scales: InputScales::default(),
             without: Vec::new(),
             probe_delay_s: None,
+            table: None,
             no_model: false,
             resample: false,
             check_levels: false,
@@ -109,6 +115,10 @@ impl Request for Ask {
 
     fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
         vec![&mut self.surface]
+    }
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        self.table.iter_mut().try_for_each(visit)
     }
 
     fn send_to(&mut self, output: Option<PathBuf>) {

@@ -15,12 +15,12 @@ use unripple_store::{Library, LibraryPlan, OutputDir};
 /// Key in the provenance of a library's plan: the number of points measured by a probe or by taps.
 pub(super) const PROBED: &str = "probed points";
 
-/// Key in the provenance of a library's plan: whether points were measured by a probe or by taps.
+/// Key in the provenance of a library's plan: whether points were measured by a probe, by taps or by a hammer.
 const BY: &str = "by";
 
-/// Whether a library's points were measured by taps, not by a probe.
+/// Whether a library's points were measured by taps or blows, not by a probe.
 pub(crate) fn by_taps(library: &Library) -> bool {
-    library.plan().provenance.get(BY).is_some_and(|by| by == "tap")
+    library.plan().provenance.get(BY).is_some_and(|by| by == "tap" || by == "hammer")
 }
 
 /// Request, surface, model and settings of a calibration, as known before anything is measured.
@@ -94,7 +94,7 @@ impl Campaign<'_> {
     /// Scales of the inputs and outputs, for the log. With taps, their strength follows from the model.
     pub(super) fn scale_told(&self) -> Value {
         match self.ask.by {
-            By::Probe => self.scales.told(),
+            By::Probe | By::Hammer => self.scales.told(),
             By::Tap => json!({ "by": "the model, for each tap" }),
         }
     }

@@ -4,7 +4,7 @@ use super::rigs::{HandRig, People, VirtualRig};
 use crate::TaskError;
 use crate::{DeviceAsk, DeviceKind};
 use crate::{device, judge};
-use unripple::core::{PROBE, Surface};
+use unripple::core::{FORCE, PROBE, Surface};
 use unripple_calibrate::measure::Rig;
 use unripple_devices::{DevicesError, Jack, Perturbation, VirtualOptions};
 
@@ -41,7 +41,7 @@ pub fn open_under(
     tension: Vec<(f64, f64)>,
 ) -> Result<Opened, TaskError> {
     match options.device {
-        DeviceKind::Virtual => virtual_surface(options, surface, tension),
+        DeviceKind::Virtual => virtual_surface(options, surface, tension, people.hammer),
         DeviceKind::Jack => jack(options, surface, people),
         DeviceKind::Card => card(options, surface, people),
         DeviceKind::Tape => Err(TaskError::Input(
@@ -54,9 +54,10 @@ fn virtual_surface(
     options: &DeviceAsk,
     surface: &Surface,
     tension: Vec<(f64, f64)>,
+    hammer: bool,
 ) -> Result<Opened, TaskError> {
     let plain = VirtualOptions::to_be_measured(surface).map_err(failed)?;
-    let mut plain = VirtualOptions { accuracy: judge::accuracy(surface), ..plain };
+    let mut plain = VirtualOptions { accuracy: judge::accuracy(surface), hammer, ..plain };
     plain.faults.tension = tension;
     let (device, unknowns) = device::virtual_surface(options, surface, &plain).map_err(failed)?;
     let seed = unknowns.as_ref().map_or(0, |unknowns| unknowns.seed);
@@ -75,19 +76,20 @@ fn said(unknowns: &Perturbation) -> String {
     )
 }
 
-/// All sensors, then the probe.
-fn inputs(surface: &Surface) -> Vec<String> {
-    device::names(surface).into_iter().chain([PROBE.to_owned()]).collect()
+/// All sensors, then the probe, or the force of a hammer.
+fn inputs(surface: &Surface, people: &People) -> Vec<String> {
+    let last = if people.hammer { FORCE } else { PROBE };
+    device::names(surface).into_iter().chain([last.to_owned()]).collect()
 }
 
 fn jack(options: &DeviceAsk, surface: &Surface, people: People) -> Result<Opened, TaskError> {
-    let device = Jack::open(&device::jack(options, surface, inputs(surface))).map_err(failed)?;
+    let device = Jack::open(&device::jack(options, surface, inputs(surface, &people))).map_err(failed)?;
     Ok(Opened { rig: Box::new(HandRig::new(device, people)), truth: None })
 }
 
 #[cfg(feature = "cards")]
 fn card(options: &DeviceAsk, surface: &Surface, people: People) -> Result<Opened, TaskError> {
-    let known = device::card(options, surface, inputs(surface));
+    let known = device::card(options, surface, inputs(surface, &people));
     let device = unripple_devices::cards::Card::open(&known).map_err(failed)?;
     Ok(Opened { rig: Box::new(HandRig::new(device, people)), truth: None })
 }

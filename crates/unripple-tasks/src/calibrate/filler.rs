@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use unripple::core::{PROBE, Surface};
 use unripple_calibrate::CalibrateError;
-use unripple_calibrate::measure::{self, Channel, Sink};
+use unripple_calibrate::measure::{self, BlowAccount, Channel, Sink};
 use unripple_calibrate::signals::Reciprocity;
 use unripple_store::{BandQuality, Library, PointState, Quality, StoreError, Take};
 
@@ -15,6 +15,9 @@ pub const SAID: &str = "said";
 
 /// Name of the check of responses against a model, and key of its log entries, for the library and for each point.
 pub const CHECK: &str = "model";
+
+/// Key of a point's log entry for the blows that it was measured by.
+pub const BLOWS: &str = "blows";
 
 /// A library that is being filled with measured responses, and what is needed to scale them.
 pub struct LibraryFiller {
@@ -50,7 +53,7 @@ impl LibraryFiller {
         Self { library, probed, probe: scales.input(PROBE), sensors, without, deaf, made }
     }
 
-    /// This filler with a probe scale of 1, for taps, whose strength follows from the model.
+    /// This filler with a probe scale of 1, for taps, whose strength follows from the model, and for blows, whose force is recorded.
     pub fn by_taps(self) -> Self {
         Self { probe: 1.0, ..self }
     }
@@ -133,12 +136,14 @@ impl LibraryFiller {
     /// so that no log speaks of other responses than are stored.
     fn note(&mut self, number: usize, channel: &Channel) -> Result<(), StoreError> {
         let said = channel.account.said();
-        let stale = |log: &Value| log.get(SAID).is_some() || log.get(CHECK).is_some();
-        if said.is_empty() && !self.library.logged_point(number).is_some_and(stale) {
+        let blows = channel.account.blows.as_ref().map(told);
+        let stale = |log: &Value| [SAID, CHECK, BLOWS].iter().any(|key| log.get(*key).is_some());
+        if blows.is_none() && said.is_empty() && !self.library.logged_point(number).is_some_and(stale) {
             return Ok(());
         }
         let said = if said.is_empty() { Value::Null } else { json!(said) };
-        self.library.log_points(BTreeMap::from([(number, json!({ SAID: said, CHECK: Value::Null }))]))
+        self.library
+            .log_points(BTreeMap::from([(number, json!({ SAID: said, CHECK: Value::Null, BLOWS: blows }))]))
     }
 
     /// Samples and qualities of a channel as they are stored.
@@ -172,6 +177,12 @@ impl Sink for LibraryFiller {
         self.made.insert(number);
         Ok(())
     }
+}
+
+/// Blows as the log has them.
+fn told(blows: &BlowAccount) -> Value {
+    let refused: Vec<String> = blows.refused.iter().map(ToString::to_string).collect();
+    json!({ "used": blows.used, "peaks_n": blows.peaks_n, "usable_to_hz": blows.usable_to_hz, "refused": refused })
 }
 
 /// Quality of a response as the library stores it.

@@ -241,7 +241,7 @@ fn useless(filler: &mut LibraryFiller) -> Result<(), TaskError> {
     };
     let (bad, good) = (count(PointState::Bad), count(PointState::Measured));
     let found = (bad > 0 && good == 0).then(|| {
-        let (by, look) = if by_taps(&filler.library) { ("taps", "the sensors") } else { ("the probe", "the probe and the levels") };
+        let (by, look) = if by_taps(&filler.library) { ("taps or blows", "the sensors") } else { ("the probe", "the probe and the levels") };
         let all = if bad == 1 { "is" } else { "are all" };
         Doubt::of(
             CHECK,

@@ -9,14 +9,15 @@ use super::points::{self, middle};
 use super::rigs::People;
 use super::taps;
 use super::wires::{self, Found, WiringTestOptions};
+use super::without_force::WithoutForce;
 use super::{By, Hands, Report, before, figure, levels, report};
 use crate::{TaskError, go_on};
 use serde_json::Value;
 use std::ops::ControlFlow;
 use unripple::core::clock::Instant;
-use unripple::core::{Layout, Point};
+use unripple::core::{Device, FORCE, Layout, Point};
 use unripple_calibrate::measure::{
-    Listen, MeasureOptions, Progress, Rig, Session, Sink, Way, Wires, campaign,
+    HammerSession, Listen, MeasureOptions, Progress, Rig, Session, Sink, Way, Wires, campaign,
 };
 use unripple_devices::{Expected, WiringOptions, check_wiring};
 use unripple_store::{Library, PointState};
@@ -26,7 +27,7 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
     let (ask, surface) = (known.ask, known.surface);
     before::apply(ask, surface, &mut known.settings)?;
     known.warn();
-    let people = People { hands, probe: ask.by == By::Probe };
+    let people = People { hands, probe: ask.by == By::Probe, hammer: ask.by == By::Hammer };
     let Opened { mut rig, truth } = devices::open(&ask.device, surface, people)?;
     let layout = rig.device().layout().clone();
     let wires = Wires::by_name(&known.model.ports, &layout, &ask.wires)?;
@@ -66,6 +67,12 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
         By::Tap => {
             filler = filler.by_taps();
             Way::Tap(Box::new(taps::session(&known, &mut filler, &layout, &wires, &settings)?))
+        }
+        By::Hammer => {
+            filler = filler.by_taps();
+            let newtons = known.scales.input(FORCE);
+            let session = HammerSession::new(surface, &layout, &wires, newtons, &settings)?;
+            Way::Hammer(Box::new(session.by_scales(filler.sensors.clone())))
         }
     };
     let start = Instant::now();
@@ -180,9 +187,11 @@ fn wiring(
     }
     rig.ready(known.places.points.len(), middle, 1)?;
     let try_options = WiringOptions::for_surface(known.surface);
-    let probe = (layout.inputs.len() > layout.outputs.len()).then_some(middle);
+    let mut moving = WithoutForce::new(rig.device());
+    let inputs = &moving.layout().inputs;
+    let probe = (inputs.len() > layout.outputs.len()).then_some(middle);
     let expected = Expected::of(known.surface, model, probe, try_options.listen).map_err(TaskError::input)?;
-    let found = check_wiring(rig.device(), &expected, &try_options).map_err(TaskError::work)?;
+    let found = check_wiring(&mut moving, &expected, &try_options).map_err(TaskError::work)?;
     WiringTestOptions::of(known).judge(&found)
 }
 

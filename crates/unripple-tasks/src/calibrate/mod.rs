@@ -20,6 +20,7 @@ mod tape;
 mod taps;
 mod verify;
 mod wires;
+mod without_force;
 
 pub use ask::{Ask, By, InputScales};
 pub(crate) use campaign::by_taps;

@@ -1,6 +1,6 @@
 //! Report of a calibration on its library.
 
-use super::filler::SAID;
+use super::filler::{BLOWS, SAID};
 use super::points::Places;
 use crate::TaskError;
 use serde::Serialize;
@@ -25,12 +25,49 @@ pub struct Report {
     reciprocity_error: Option<f64>,
     seconds_per_recording: f64,
     seconds: f64,
+    /// Blows of a hammer with a force sensor, if points were measured by them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blows: Option<Blows>,
     /// Why the library is not to be trusted, if it is not.
     doubtful: Vec<String>,
     /// Other notes.
     notes: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     truth: Option<String>,
+}
+
+/// Blows of a hammer at all points.
+#[derive(Clone, Debug, Default, Serialize)]
+struct Blows {
+    used: usize,
+    refused: usize,
+    /// Lowest frequency, over all points, above which a force is not usable; `null` if all are usable up to the end of the band.
+    usable_to_hz: Option<f64>,
+}
+
+impl Blows {
+    /// The blows in the log of a library's points; `None` if there are none.
+    fn of(library: &Library) -> Option<Self> {
+        let mut all = None;
+        for point in 0..library.points().len() {
+            let Some(log) = library.logged_point(point).and_then(|log| log.get(BLOWS)) else { continue };
+            let Some(used) = log["used"].as_u64() else { continue };
+            let all = all.get_or_insert_with(Self::default);
+            all.used += used as usize;
+            all.refused += log["refused"].as_array().map_or(0, Vec::len);
+            let hz = log["usable_to_hz"].as_f64();
+            all.usable_to_hz = all.usable_to_hz.into_iter().chain(hz).min_by(f64::total_cmp);
+        }
+        all
+    }
+
+    fn text(&self) -> String {
+        let band = match self.usable_to_hz {
+            Some(hz) => format!("the force is usable to {hz:.0} Hz"),
+            None => "the force is usable over the whole band".into(),
+        };
+        format!("{} used, {} refused; {band}", self.used, self.refused)
+    }
 }
 
 /// Median and worst over all responses; `null` where it is not known.
@@ -90,6 +127,7 @@ impl Report {
             reciprocity_error: reciprocity(library)?,
             seconds_per_recording,
             seconds: taken.as_secs_f64(),
+            blows: Blows::of(library),
             doubtful: library.doubts().iter().map(ToString::to_string).collect(),
             notes: notes(library),
             truth: truth.map(str::to_owned),
@@ -112,6 +150,9 @@ impl Report {
         }
         if let Some(error) = self.reciprocity_error {
             let _ = writeln!(text, "  reciprocity      {:.2} % error, with gains fitted", error * 100.0);
+        }
+        if let Some(blows) = &self.blows {
+            let _ = writeln!(text, "  blows            {}", blows.text());
         }
         for note in &self.notes {
             let _ = writeln!(text, "  note             {note}");

@@ -3,7 +3,7 @@
 use super::campaign::Campaign;
 use super::points::Places;
 use super::scale::Scales;
-use super::{Ask, Hands, Report, figure, live, nobody, tape};
+use super::{Ask, By, Hands, Report, figure, live, nobody, tape};
 use crate::numbers::above_zero;
 use crate::{DeviceKind, Progress, TaskError, go_on, judge};
 use std::cell::RefCell;
@@ -55,6 +55,13 @@ fn check(ask: &Ask, surface: &Surface, scales: &Scales) -> Result<(), TaskError>
     }
     if let Some(kept) = ask.response_s.filter(|kept| *kept > MOST_KEPT) {
         return Err(TaskError::ask("response_s", format!("at most {MOST_KEPT} s"), format!("{kept} s")));
+    }
+    if ask.table.is_some() && (ask.device.device != DeviceKind::Tape || ask.by == By::Probe) {
+        return Err(TaskError::ask(
+            "table",
+            "`device` tape and `by` tap or hammer beside it",
+            "another device or way",
+        ));
     }
     within(level, scales, surface)?;
     without(ask, surface).map(drop)

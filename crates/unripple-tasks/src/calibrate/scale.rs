@@ -1,10 +1,10 @@
 //! Scales of inputs and outputs: values at full scale, and whether absolute levels are known.
 
-use super::ask::{Ask, InputScales};
+use super::ask::{Ask, By, InputScales};
 use crate::{DeviceKind, TaskError};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use unripple::core::{PROBE, Surface};
+use unripple::core::{FORCE, PROBE, Surface};
 use unripple_calibrate::measure::REFERENCE;
 
 /// Factors from the samples of a device or file to physical units.
@@ -13,6 +13,8 @@ pub struct Scales {
     all: Option<f64>,
     named: BTreeMap<String, f64>,
     output: Option<f64>,
+    /// How points are measured.
+    by: By,
     /// Whether the device itself is in SI units, as the virtual surface is.
     own: bool,
 }
@@ -38,7 +40,26 @@ impl Scales {
         {
             known(name, scale, surface)?;
         }
-        Ok(Self { all, named, output, own })
+        let scales = Self { all, named, output, by: ask.by, own };
+        scales.of_hammer(surface)?;
+        Ok(scales)
+    }
+
+    /// Returns an error for a hammer whose force, or a sensor, has no scale: responses per newton would be guessed.
+    fn of_hammer(&self, surface: &Surface) -> Result<(), TaskError> {
+        if self.own || self.by != By::Hammer {
+            return Ok(());
+        }
+        let sensor = surface.actuators.iter().find(|actuator| !self.knows(&actuator.name));
+        let (expected, name) = match (self.named.contains_key(FORCE), sensor) {
+            (false, _) => ("the force that full scale stands for in N, as in force=100", FORCE),
+            (true, Some(sensor)) => (
+                "what full scale stands for at every sensor, in its unit (m/s, V or A), as in a1=0.5, or one number for all",
+                sensor.name.as_str(),
+            ),
+            (true, None) => return Ok(()),
+        };
+        Err(TaskError::ask("input_scales", expected, format!("none for `{name}`")))
     }
 
     /// Factor that converts an input's samples to its unit; 1 if unknown.
@@ -58,6 +79,10 @@ impl Scales {
 
     /// Reason why absolute displacements and velocities are unknown; `None` if they are known.
     pub fn unknown(&self) -> Option<String> {
+        // By reciprocity, a response in the sensor's unit per newton is one in m/s per unit of drive: both scales are asked for.
+        if self.by == By::Hammer {
+            return None;
+        }
         let mut lacking = Vec::new();
         if !self.knows(PROBE) {
             lacking.push("`input_scales` probe=SCALE, m/s at the probe's full scale");
@@ -75,9 +100,13 @@ impl Scales {
         self.own
     }
 
-    /// Whether the scales of all sensors and of the probe are known.
+    /// Whether the scales of all sensors and of the probe are known; with a hammer, of all sensors and outputs.
     pub fn sensors_too(&self, surface: &Surface) -> bool {
-        surface.actuators.iter().all(|actuator| self.knows(&actuator.name)) && self.knows(PROBE)
+        let other = match self.by {
+            By::Hammer => self.own || self.output.is_some(),
+            By::Probe | By::Tap => self.knows(PROBE),
+        };
+        surface.actuators.iter().all(|actuator| self.knows(&actuator.name)) && other
     }
 
     /// The scales as an entry of the library's log.
@@ -97,10 +126,10 @@ fn known(name: &str, scale: f64, surface: &Surface) -> Result<(), TaskError> {
         return Err(TaskError::ask("input_scales", "a number other than 0, as in probe=0.5", scale));
     }
     let actuator = surface.actuators.iter().any(|actuator| actuator.name == name);
-    if !actuator && !["", PROBE, REFERENCE].contains(&name) {
+    if !actuator && !["", PROBE, REFERENCE, FORCE].contains(&name) {
         return Err(TaskError::ask(
             "input_scales",
-            "the name of an actuator, or `probe`",
+            "the name of an actuator, `probe` or `force`",
             format!("`{name}`"),
         ));
     }

@@ -14,7 +14,7 @@ pub fn checks(
     surface: &Surface,
     model: &Arc<Responses>,
 ) -> Result<Vec<Check>, TaskError> {
-    let mut opened = match open(options, surface, People { hands: nobody(), probe: true }) {
+    let mut opened = match open(options, surface, People { hands: nobody(), probe: true, hammer: false }) {
         Ok(opened) => opened,
         Err(error) => {
             let fix = match options.device {

@@ -46,9 +46,13 @@ impl PingDevice {
         let output_scale = ask.device.output_scale.or(known.output_scale());
         let device = DeviceAsk { output_scale, ..ask.device.clone() };
         // No probe is listened to, so nobody need move one.
-        let mut rig =
-            open_under(&device, surface, People { hands: Box::new(|_| Ok(())), probe: false }, course(ask))?
-                .rig;
+        let mut rig = open_under(
+            &device,
+            surface,
+            People { hands: Box::new(|_| Ok(())), probe: false, hammer: false },
+            course(ask),
+        )?
+        .rig;
         let layout = rig.device().layout().clone();
         let wires = Wires::by_name(&known.modal.ports, &layout, &[])?;
         if wires.sensors.is_empty() {

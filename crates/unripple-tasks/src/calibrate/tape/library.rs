@@ -14,16 +14,21 @@ const SAME: f64 = 1e-9;
 impl TapeCalibration<'_> {
     /// Creates or opens the library of this calibration, and adds points that the plan has gained.
     pub fn library(&self) -> Result<Library, TaskError> {
-        let (folder, plan) = (&self.campaign.ask.output, self.campaign.plan());
-        if Library::is_at(folder) {
-            let there = Library::open(folder)?;
-            if let Some(known) = grown(&self.campaign, &plan, there.plan()) {
-                drop(there);
-                return Ok(Library::grow(folder, &plan, &known)?);
-            }
-        }
-        Ok(Library::create(folder, &plan)?)
+        library_of(&self.campaign)
     }
+}
+
+/// Creates or opens the library of a calibration, and adds points that its plan has gained.
+pub fn library_of(campaign: &Campaign<'_>) -> Result<Library, TaskError> {
+    let (folder, plan) = (&campaign.ask.output, campaign.plan());
+    if Library::is_at(folder) {
+        let there = Library::open(folder)?;
+        if let Some(known) = grown(campaign, &plan, there.plan()) {
+            drop(there);
+            return Ok(Library::grow(folder, &plan, &known)?);
+        }
+    }
+    Ok(Library::create(folder, &plan)?)
 }
 
 /// The number of each point in the existing plan `there`, if the new plan differs from it only by added

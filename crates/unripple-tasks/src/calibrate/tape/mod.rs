@@ -1,4 +1,5 @@
-//! Calibration by files: sweeps to be played elsewhere are written as WAV, and the recordings of them are read back.
+//! Calibration by files: sweeps to be played elsewhere are written as WAV, and the recordings of them are read back; or recordings of taps
+//! and blows are read.
 
 mod answer;
 mod fault;
@@ -9,6 +10,8 @@ mod plan;
 mod planned;
 mod read;
 mod rig;
+mod strikes;
+mod struck;
 mod takes;
 mod wiring;
 
@@ -23,7 +26,7 @@ use planned::{PlannedPoints, Wanted};
 use read::Reader;
 use std::path::{Path, PathBuf};
 use takes::Takes;
-use unripple::core::{Layout, PROBE, Surface};
+use unripple::core::{FORCE, Layout, PROBE, Surface};
 use unripple_calibrate::measure::{MeasureOptions, Session, Wires};
 use unripple_store::Library;
 
@@ -65,8 +68,8 @@ pub(super) fn run(mut campaign: Campaign<'_>) -> Result<Report, TaskError> {
             "`device` tape: expected `tape` DIR, a folder for recordings, found none".into(),
         ));
     };
-    if ask.by == By::Tap {
-        return Err(TaskError::Input("`by` tap: expected `by` probe with `device` tape, found taps".into()));
+    if ask.by != By::Probe {
+        return struck::run(campaign, folder);
     }
     let before = plan::found(folder)?;
     // A bad recording is not better when it is read again, and one that was made is read as it was made.
@@ -125,7 +128,14 @@ fn few(points: usize, repeats: usize) -> Result<(), TaskError> {
 fn layout(ask: &Ask, surface: &Surface, full_scale: f64) -> Result<Layout, TaskError> {
     let names: Vec<String> = surface.actuators.iter().map(|actuator| actuator.name.clone()).collect();
     let inputs = match &ask.device.tape_inputs[..] {
-        [] => names.iter().cloned().chain([PROBE.to_owned()]).collect(),
+        [] => {
+            let last = match ask.by {
+                By::Probe => Some(PROBE),
+                By::Hammer => Some(FORCE),
+                By::Tap => None,
+            };
+            names.iter().cloned().chain(last.map(str::to_owned)).collect()
+        }
         given => given.to_vec(),
     };
     if let Some(twice) = inputs.iter().enumerate().find(|(i, name)| inputs[..*i].contains(name)) {
