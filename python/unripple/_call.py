@@ -26,7 +26,7 @@ _BESIDE = {
 }
 
 #: Options that exclude each other.
-_APART = {"calibrate": (("figure", "check_levels"),), "place": (("keep", "keep_all"),)}
+_APART = {"calibrate": (("figure", "check_levels"), ("table", "at"), ("table", "grid_mm")), "place": (("keep", "keep_all"),)}
 
 #: Fields without which there is nothing to do, by command, with the option that sets them.
 _NEEDED = {

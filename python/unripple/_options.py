@@ -267,7 +267,7 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         *_same(_values.texts, "without"),
         Option("probe_delay_ms", "probe_delay_s", milli),
         *_same(flag, "no_model", "resample", "check_levels", "any_wiring"),
-        *_same(path, "figure", "output"),
+        *_same(path, "table", "figure", "output"),
     ),
     "fit": (
         *_same(path, "library", "output"),

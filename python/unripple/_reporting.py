@@ -281,7 +281,9 @@ class Reporting:
         grid_mm, at
             Spacing of a square grid of points to measure, and single points, in mm.
         by, repeats, sweep_ms, response_ms, level, check_levels
-            How points are measured: by ``"probe"`` or ``"tap"``, how often, and with which sweeps.
+            How points are measured: by ``"probe"``, ``"tap"`` or ``"hammer"``, how often, and with which sweeps.
+        table
+            Tape, by taps or hammer: table (CSV) of the places of the recordings.
         wire, input_scale, output_scale, without, probe_delay_ms, any_wiring, no_model, resample
             Channels by the names of what is connected to them, scales by the names of inputs, and what to leave out.
         figure

@@ -290,7 +290,8 @@ class CalibrateOptions(DeviceOptions, total=False):
     at: Places | None
     points_mm: Places | None
     points_m: Places | None
-    by: Literal["probe", "tap"] | None
+    by: Literal["probe", "tap", "hammer"] | None
+    table: Path | None
     repeats: int | None
     sweep_ms: float | None
     sweep_s: float | None

@@ -47,7 +47,7 @@ pub mod ringing;
 pub mod signals;
 pub mod verify;
 
-pub use between::{Between, BetweenOptions, Interpolation, Uncertainty};
+pub use between::{Between, BetweenOptions, Interpolation, Uncertainty, Wavelength, wavelength};
 pub use drift::*;
 pub use error::CalibrateError;
 pub use fit::*;

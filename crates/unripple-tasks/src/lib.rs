@@ -82,6 +82,7 @@ pub mod target;
 pub mod text_forms;
 mod thinned;
 pub mod waveform;
+mod wavelength;
 mod window;
 
 pub use apart::{Lane, apart};

@@ -1,7 +1,7 @@
 //! The input of tasks that work on either a surface or a library of responses.
 
 use crate::numbers::{ACCURACY, accuracy};
-use crate::{Progress, Solved, SurfaceAsk, TaskError, between, own};
+use crate::{Progress, Solved, SurfaceAsk, TaskError, between, own, wavelength};
 use std::cell::RefCell;
 use std::path::PathBuf;
 use unripple::act::Note;
@@ -36,7 +36,7 @@ pub struct Stored {
     pub without_scale: Option<String>,
 }
 
-/// Notes on a library as a whole: doubts, actuators left out, checks not made, unknown scale.
+/// Notes on a library as a whole: doubts, actuators left out, checks not made, another wavelength than its file's, unknown scale.
 fn about(library: &Library) -> Vec<Note> {
     let mut notes: Vec<Note> =
         library.doubts().iter().map(|doubt| Note { topic: "doubtful", text: doubt.to_string() }).collect();
@@ -50,6 +50,8 @@ fn about(library: &Library) -> Vec<Note> {
     notes.extend(said.map(|said| Note { topic: "model", text: said.into() }));
     let tapped = library.logged("taps").and_then(|log| log["said"].as_str());
     notes.extend(tapped.map(|said| Note { topic: "model", text: said.into() }));
+    let waves = library.logged(wavelength::KEY).and_then(|log| log["said"].as_str());
+    notes.extend(waves.map(|said| Note { topic: "wavelength", text: said.into() }));
     notes.extend(library.without_scale().map(|why| Note { topic: "level", text: why.into() }));
     notes
 }

@@ -11,7 +11,9 @@ mod stray;
 mod system;
 mod triangles;
 mod uncertainty;
+mod wavelength;
 
 pub use options::{BetweenOptions, Interpolation};
 pub use plan::Between;
 pub use uncertainty::Uncertainty;
+pub use wavelength::{Wavelength, wavelength};

@@ -10,6 +10,7 @@ use unripple_core::{Device, FORCE, Point, Random, Responses};
 use unripple_devices::{Handle, Tap, Virtual, VirtualOptions};
 use unripple_physics::sample;
 
+/// Samples per second, those of the virtual surfaces.
 const RATE: f64 = 48e3;
 
 /// Three modes, as frequency in Hz, decay time in s and weight at each of two sensors.

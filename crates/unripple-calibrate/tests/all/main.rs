@@ -42,3 +42,4 @@ mod signals_schedule;
 mod signals_stimulus;
 mod taps;
 mod verify;
+mod wavelength;

@@ -108,8 +108,9 @@ pub struct CalibrateOptions {
     /// Repeatable.
     #[arg(long, value_name = "NAME=CHANNEL", help_heading = heading::WIRING)]
     pub wire: Vec<String>,
-    /// Value of an input at full scale: in m/s for the probe, in N for the force of a hammer, in the sensor's unit for an actuator; negative if the input is
-    /// reversed. Without a name it applies to all inputs. Repeatable. Without this option absolute levels are unknown.
+    /// Value of an input at full scale: in m/s for the probe, in N for the force of a hammer, in the sensor's unit for an actuator;
+    /// negative if the input is reversed. Without a name it applies to all inputs. Repeatable. Without this option absolute levels
+    /// are unknown, and nothing is measured by a hammer.
     #[arg(long, value_name = "[NAME=]SCALE", allow_hyphen_values = true, help_heading = heading::WIRING)]
     pub input_scale: Vec<String>,
     /// Do not use the actuator of this name, for example because it is dead. Repeatable.

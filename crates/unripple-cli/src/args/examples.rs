@@ -93,6 +93,8 @@ pub const CALIBRATE: &str = "Examples:
     unripple calibrate my-surface.toml --device jack --grid-mm 10 --check-levels -o rig.zarr
   With a finger that taps in place of a probe:
     unripple calibrate my-surface.toml --device jack --by tap --repeats 5 --at 62,90 -o rig.zarr
+  With a hammer whose force is recorded, 100 N at full scale:
+    unripple calibrate my-surface.toml --device card --by hammer --repeats 3 --input-scale force=100 --input-scale 0.5 --at 62,90 -o rig.zarr
   From recordings made elsewhere; the first run writes the file to play:
     unripple calibrate my-surface.toml --device tape --tape takes --grid-mm 10 -o rig.zarr";
 

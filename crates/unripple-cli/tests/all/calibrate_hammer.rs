@@ -15,8 +15,8 @@ use unripple_store::parse_surface;
 const SENSORS: f64 = 0.5;
 const NEWTONS: f64 = 20.0;
 
-/// Where it is struck, in mm, and how: the seeds of blows that are single, and one that is double.
-const AT: [(f64, f64); 2] = [(52.0, 47.0), (70.0, 38.0)];
+/// Where it is struck, in mm: the first two points of a grid of 35 mm.
+const AT: [(f64, f64); 2] = [(35.0, 35.0), (70.0, 35.0)];
 
 /// Records a push at a place of a film by all sensors and the hammer, scaled to full scale.
 fn record(push: &Tap, at: (f64, f64)) -> Vec<Vec<f64>> {
@@ -43,7 +43,7 @@ fn record(push: &Tap, at: (f64, f64)) -> Vec<Vec<f64>> {
     lines
 }
 
-/// A double hit: half a millisecond each, 6 ms apart.
+/// A double hit: a third of a millisecond each, 6 ms apart.
 fn double() -> Tap {
     let push = Tap::half_sine(6.0, 0.3e-3, 48e3);
     let mut force = push.force().to_vec();
@@ -102,7 +102,7 @@ fn recordings_of_blows_and_of_taps_are_libraries() {
     assert_eq!(told["tape"]["missing"][0], "five.wav");
     assert!(told["notes"].to_string().contains("double hit"), "{}", told["notes"]);
 
-    json(&["respond", &film, "--at", "52,47", "--at", "70,38", "--length-ms", "100", "-o", &real]);
+    json(&["respond", &film, "--grid-mm", "35", "--length-ms", "100", "-o", &real]);
     for point in 0..2 {
         let [gain, off] = against(&response(&library, point), &response(&real, point), 5);
         assert!((gain - 1.0).abs() < 0.01 && off < 0.03, "point {point}: gain {gain}, off by {off}");

@@ -4,7 +4,7 @@
 use super::campaign::{Campaign, by_taps};
 use super::filler::LibraryFiller;
 use super::verify;
-use crate::{Record, TaskError, own};
+use crate::{Record, TaskError, own, wavelength};
 use serde_json::{Value, json};
 use unripple::core::clock;
 use unripple_devices::reciprocal;
@@ -71,6 +71,9 @@ pub fn finish(
     lacking(campaign, filler)?;
     useless(filler)?;
     verify::check(filler, campaign.surface, campaign.model, &campaign.settings)?;
+    let measured = |point: &usize| filler.library.state(*point) == Some(PointState::Measured);
+    let probed: Vec<usize> = (0..filler.probed).filter(measured).collect();
+    wavelength::log(&mut filler.library, &probed, campaign.surface)?;
     recorded(filler)?;
     Ok(filler.library.set_doubts(UNFINISHED, Vec::new())?)
 }

@@ -62,19 +62,7 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
         session.set_reference(&sensors)?;
     }
     let seconds = session.seconds();
-    let way = match ask.by {
-        By::Probe => Way::Probe(Box::new(session)),
-        By::Tap => {
-            filler = filler.by_taps();
-            Way::Tap(Box::new(taps::session(&known, &mut filler, &layout, &wires, &settings)?))
-        }
-        By::Hammer => {
-            filler = filler.by_taps();
-            let newtons = known.scales.input(FORCE);
-            let session = HammerSession::new(surface, &layout, &wires, newtons, &settings)?;
-            Way::Hammer(Box::new(session.by_scales(filler.sensors.clone())))
-        }
-    };
+    let (way, mut filler) = way_of(&known, session, filler, (&layout, &wires), &settings)?;
     let start = Instant::now();
     fill(&known, rig.as_mut(), &way, &mut filler, settings.retries)?;
     let taken = start.elapsed();
@@ -88,6 +76,28 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
         return Err(TaskError::Cancelled);
     }
     Report::of_library(&report, doubted(&filler.library).or(drawn.err().map(|error| error.to_string())))
+}
+
+/// How points are measured, and the library to fill with what is measured so.
+fn way_of(
+    known: &Campaign<'_>,
+    session: Session,
+    filler: LibraryFiller,
+    (layout, wires): (&Layout, &Wires),
+    settings: &MeasureOptions,
+) -> Result<(Way, LibraryFiller), TaskError> {
+    if known.ask.by == By::Probe {
+        return Ok((Way::Probe(Box::new(session)), filler));
+    }
+    let mut filler = filler.by_taps();
+    let way = if known.ask.by == By::Hammer {
+        let newtons = known.scales.input(FORCE);
+        let session = HammerSession::new(known.surface, layout, wires, newtons, settings)?;
+        Way::Hammer(Box::new(session.by_scales(filler.sensors.clone())))
+    } else {
+        Way::Tap(Box::new(taps::session(known, &mut filler, layout, wires, settings)?))
+    };
+    Ok((way, filler))
 }
 
 /// Measures the missing points one by one, and repeats a bad one up to `retries` times.

@@ -3,7 +3,9 @@
 use super::filler::{BLOWS, SAID};
 use super::points::Places;
 use crate::TaskError;
+use crate::wavelength;
 use serde::Serialize;
+use serde_json::Value;
 use std::fmt::Write;
 use std::time::Duration;
 use unripple_store::{Library, PointState, Quality};
@@ -28,6 +30,9 @@ pub struct Report {
     /// Blows of a hammer with a force sensor, if points were measured by them.
     #[serde(skip_serializing_if = "Option::is_none")]
     blows: Option<Blows>,
+    /// The wavelength from how responses correlate in space, if they tell it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wavelength: Option<Value>,
     /// Why the library is not to be trusted, if it is not.
     doubtful: Vec<String>,
     /// Other notes.
@@ -128,6 +133,7 @@ impl Report {
             seconds_per_recording,
             seconds: taken.as_secs_f64(),
             blows: Blows::of(library),
+            wavelength: wavelength::logged(library),
             doubtful: library.doubts().iter().map(ToString::to_string).collect(),
             notes: notes(library),
             truth: truth.map(str::to_owned),
@@ -153,6 +159,9 @@ impl Report {
         }
         if let Some(blows) = &self.blows {
             let _ = writeln!(text, "  blows            {}", blows.text());
+        }
+        if let Some(told) = &self.wavelength {
+            let _ = writeln!(text, "  wavelength       {}", wavelength::text(told));
         }
         for note in &self.notes {
             let _ = writeln!(text, "  note             {note}");

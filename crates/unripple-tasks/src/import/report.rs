@@ -3,6 +3,7 @@
 use super::Ask;
 use super::assembled::Assembled;
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::BTreeSet;
 use unripple::act::Note;
 use unripple_store::LibraryPlan;
@@ -46,15 +47,25 @@ pub struct Report {
     pub band_hz: [f64; 2],
     /// Shortest wavelength of the band, in m.
     pub lambda_min_m: f64,
-    /// Notes on what was left out.
+    /// The wavelength from how responses correlate in space, beside that of the surface's file; `None` where they do not tell it.
+    pub wavelength: Option<Value>,
+    /// Notes on what was left out, and on the wavelength.
     pub notes: Vec<Note>,
 }
 
 impl Report {
     /// The report on a library of this plan.
-    pub(super) fn of(ask: &Ask, surface: &str, plan: &LibraryPlan, assembled: Assembled) -> Self {
+    pub(super) fn of(
+        ask: &Ask,
+        surface: &str,
+        plan: &LibraryPlan,
+        assembled: Assembled,
+        wavelength: Option<Value>,
+    ) -> Self {
         let joined = |names: BTreeSet<&'static str>| names.into_iter().collect::<Vec<_>>().join(", ");
         let note = |text| Note { topic: "left-out", text };
+        let waves = wavelength.as_ref().and_then(|told| told["said"].as_str());
+        let waves = waves.map(|said| Note { topic: "wavelength", text: said.to_owned() });
         Self {
             program: "unripple",
             version: env!("CARGO_PKG_VERSION"),
@@ -74,7 +85,8 @@ impl Report {
             sample_rate_hz: plan.conditions.rate,
             band_hz: plan.conditions.band,
             lambda_min_m: plan.conditions.lambda_min,
-            notes: assembled.left_out.into_iter().map(note).collect(),
+            wavelength,
+            notes: assembled.left_out.into_iter().map(note).chain(waves).collect(),
         }
     }
 }
@@ -93,8 +105,12 @@ impl crate::Report for Report {
             true => String::new(),
             false => format!(", without {}", self.without.join(", ")),
         };
+        let waves = self
+            .wavelength
+            .as_ref()
+            .map_or_else(String::new, |told| format!("wavelength {}\n", crate::wavelength::text(told)));
         format!(
-            "{}: {of}\n{} points of {} actuators{without}, {} samples at {} Hz, {low:.4} to {high:.4} Hz\n{integrated}wrote {}\n",
+            "{}: {of}\n{} points of {} actuators{without}, {} samples at {} Hz, {low:.4} to {high:.4} Hz\n{integrated}{waves}wrote {}\n",
             self.surface, self.points, self.actuators, self.samples, self.sample_rate_hz, self.library
         )
     }

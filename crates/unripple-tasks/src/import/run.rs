@@ -7,7 +7,7 @@ use super::labels::Labels;
 use super::{Ask, Report, read};
 use crate::numbers::above_zero;
 use crate::record::{now, of_bytes};
-use crate::{Progress, Record, TaskError, filling, go_on};
+use crate::{Progress, Record, TaskError, filling, go_on, wavelength};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::path::Path;
@@ -66,10 +66,12 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     record.log(&mut library)?;
     library.log("dead", if ask.without.is_empty() { Value::Null } else { json!(ask.without) })?;
     fill(&mut library, &assembled, progress)?;
+    let done = library.done();
+    wavelength::log(&mut library, &done, &surface)?;
     for left in &assembled.left_out {
         progress.tell(&format!("left out: {left}"));
     }
-    Ok(Report::of(ask, &surface.name, &plan, assembled))
+    Ok(Report::of(ask, &surface.name, &plan, assembled, wavelength::logged(&library)))
 }
 
 /// Refuses a request that makes no sense, before files are read.

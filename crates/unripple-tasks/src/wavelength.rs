@@ -1,0 +1,98 @@
+//! The wavelength of a measured library, from how its responses correlate in space, beside that of its surface file.
+
+use crate::TaskError;
+use serde_json::{Value, json};
+use unripple::core::{SampledResponses, Surface};
+use unripple::physics::Medium;
+use unripple_calibrate::wavelength;
+use unripple_store::Library;
+
+/// Key of the library's log entry.
+pub(crate) const KEY: &str = "wavelength";
+
+/// Largest number of points whose responses are read: the estimate uses no more.
+const MOST: usize = 100;
+
+/// Difference from the file's wavelength, in standard errors and relative, from which on it is said: the estimate is a few per cent off where
+/// there are few modes.
+const ERRORS: f64 = 3.0;
+const APART: f64 = 0.12;
+
+/// Estimates the wavelength at the top of the band from the responses at these points of a library, and logs it beside that of the
+/// surface's file; the log is empty where the responses do not tell it.
+///
+/// # Errors
+/// [`TaskError::Work`] if the library cannot be read or written.
+pub(crate) fn log(library: &mut Library, points: &[usize], surface: &Surface) -> Result<(), TaskError> {
+    let found = estimate(library, points)?;
+    let told = found.map_or(Value::Null, |found| {
+        let of_file = Medium::of(&surface.sheet).lambda_min(found.hz);
+        let apart = (found.metres - of_file).abs();
+        let mut told = json!({
+            "estimated_m": found.metres,
+            "error_m": found.error,
+            "first_zero_m": found.first_zero,
+            "at_hz": found.hz,
+            "of_file_m": of_file,
+        });
+        if apart > ERRORS * found.error && apart > APART * of_file {
+            told["said"] = json!(format!(
+                "at {:.0} Hz the responses correlate in space as waves of {:.1} +- {:.1} mm do, those of the surface file have {:.1} mm: focal \
+                 discs, and contrasts with them, are those of the file; correct its tension or its material",
+                found.hz,
+                1e3 * found.metres,
+                1e3 * found.error,
+                1e3 * of_file
+            ));
+        }
+        told
+    });
+    Ok(library.log(KEY, told)?)
+}
+
+/// The estimate, from the points nearest to the middle of all.
+fn estimate(
+    library: &Library,
+    points: &[usize],
+) -> Result<Option<unripple_calibrate::Wavelength>, TaskError> {
+    let Some(middle) = middle(library, points) else { return Ok(None) };
+    let mut near = points.to_vec();
+    let place = |point: &usize| library.points()[*point];
+    near.sort_by(|a, b| place(a).distance(middle).total_cmp(&place(b).distance(middle)));
+    near.truncate(MOST);
+    let mut data = Vec::new();
+    for point in &near {
+        data.extend(library.get(*point)?);
+    }
+    let plan = library.plan();
+    let places = near.iter().map(place).collect();
+    let responses =
+        SampledResponses::new(plan.ports.clone(), places, plan.conditions.clone(), plan.samples, data)
+            .map_err(TaskError::work)?;
+    wavelength(&responses).map_err(TaskError::work)
+}
+
+/// The mean of some points of a library; `None` without points.
+fn middle(library: &Library, points: &[usize]) -> Option<unripple::core::Point> {
+    let count = points.len() as f64;
+    let all = || points.iter().map(|point| library.points()[*point]);
+    let [x, y] = all().fold([0.0; 2], |sum, at| [sum[0] + at.x, sum[1] + at.y]);
+    (count > 0.0).then(|| unripple::core::Point::new(x / count, y / count))
+}
+
+/// What the log of a library says of its wavelength; `None` where its responses do not tell it.
+pub(crate) fn logged(library: &Library) -> Option<Value> {
+    library.logged(KEY).filter(|told| told.is_object()).cloned()
+}
+
+/// The estimate as a line of text for people.
+pub(crate) fn text(told: &Value) -> String {
+    let of = |key: &str| told[key].as_f64().unwrap_or(f64::NAN);
+    format!(
+        "{:.1} +- {:.1} mm at {:.0} Hz, as responses correlate in space; {:.1} mm by the surface file",
+        1e3 * of("estimated_m"),
+        1e3 * of("error_m"),
+        of("at_hz"),
+        1e3 * of("of_file_m")
+    )
+}
