@@ -13,6 +13,9 @@ pub(crate) const KEY: &str = "wavelength";
 /// Largest number of points whose responses are read: the estimate uses no more.
 const MOST: usize = 100;
 
+/// Largest number of samples that are held, 80 MB: responses that are longer than this allows are cut off, since their beginning tells enough.
+const MOST_SAMPLES: usize = 20_000_000;
+
 /// Difference from the file's wavelength, in standard errors and relative, from which on it is said: the estimate is a few per cent off where
 /// there are few modes.
 const ERRORS: f64 = 3.0;
@@ -60,15 +63,16 @@ fn estimate(
     let place = |point: &usize| library.points()[*point];
     near.sort_by(|a, b| place(a).distance(middle).total_cmp(&place(b).distance(middle)));
     near.truncate(MOST);
+    let plan = library.plan();
+    let kept = (MOST_SAMPLES / (near.len() * plan.ports.len()).max(1)).min(plan.samples);
     let mut data = Vec::new();
     for point in &near {
-        data.extend(library.get(*point)?);
+        let all = library.get(*point)?;
+        all.chunks_exact(plan.samples).for_each(|response| data.extend_from_slice(&response[..kept]));
     }
-    let plan = library.plan();
     let places = near.iter().map(place).collect();
-    let responses =
-        SampledResponses::new(plan.ports.clone(), places, plan.conditions.clone(), plan.samples, data)
-            .map_err(TaskError::work)?;
+    let responses = SampledResponses::new(plan.ports.clone(), places, plan.conditions.clone(), kept, data)
+        .map_err(TaskError::work)?;
     wavelength(&responses).map_err(TaskError::work)
 }
 

@@ -129,7 +129,10 @@ struct Spectra {
 impl Spectra {
     /// Spectra of responses below a frequency `top` in Hz.
     fn of(responses: &SampledResponses, top: f64) -> Self {
-        let (samples, rate) = (responses.samples(), responses.conditions.rate);
+        let rate = responses.conditions.rate;
+        // What is longer than the lines need tells no more of them.
+        let needed = MOST_HZ as f64 * rate / ((1.0 - NARROW) * top);
+        let samples = responses.samples().min(needed.ceil() as usize);
         // Lines of a record are independent at the inverse of its length.
         let lines = ((1.0 - NARROW) * top * samples as f64 / rate) as usize;
         let lines = lines.min(MOST_HZ);
@@ -140,7 +143,7 @@ impl Spectra {
         let spectra = |group: &[f64]| {
             let point = |point: usize| {
                 let one = |actuator: usize| {
-                    let response = responses.response(actuator, point);
+                    let response = &responses.response(actuator, point)[..samples];
                     group.iter().map(move |hz| line(response, hz / rate))
                 };
                 (0..responses.ports.len()).flat_map(one).collect()
