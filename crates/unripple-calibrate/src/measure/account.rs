@@ -1,6 +1,6 @@
 //! Findings of a recording besides the responses: clock error, lost samples, change of tension, knocks, harmonics, blows.
 
-use super::BlowAccount;
+use super::blow::BlowAccount;
 
 /// A gap in a recording: samples that were lost or recorded twice.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -90,6 +90,46 @@ impl Blow {
     }
 }
 
+/// Blows at a place, and what became of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BlowAccount {
+    /// Number of blows that the responses are computed from.
+    pub used: usize,
+    /// Largest force of each of them, in N.
+    pub peaks_n: Vec<f64>,
+    /// Frequency in Hz above which the force's spectrum is more than 20 dB below its level at low frequencies; `None` if that is above the
+    /// band.
+    pub usable_to_hz: Option<f64>,
+    /// Blows that were refused, and why.
+    pub refused: Vec<BlowFault>,
+}
+
+impl BlowAccount {
+    /// What is remarkable about the blows, one sentence each.
+    pub fn said(&self) -> Vec<String> {
+        let mut said = Vec::new();
+        if let Some(hz) = self.usable_to_hz {
+            said.push(format!(
+                "above {hz:.0} Hz the force is more than 20 dB below its level at low frequencies: responses are limited to what is below (a \
+                 harder tip reaches further)"
+            ));
+        }
+        let mut kinds: Vec<(String, usize)> = Vec::new();
+        for fault in &self.refused {
+            let text = fault.to_string();
+            match kinds.iter_mut().find(|(known, _)| *known == text) {
+                Some((_, count)) => *count += 1,
+                None => kinds.push((text, 1)),
+            }
+        }
+        said.extend(kinds.into_iter().map(|(text, count)| match count {
+            1 => format!("a blow was refused: {text}"),
+            count => format!("{count} blows were refused: {text}"),
+        }));
+        said
+    }
+}
+
 /// A hit: its sample and its force.
 type Hit = (usize, f64);
 

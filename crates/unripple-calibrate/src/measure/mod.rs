@@ -27,11 +27,11 @@ mod tones;
 mod wires;
 
 pub use account::{Account, Knocked, Lost};
-pub use blow::{Blow, BlowFault, blows, usable_to_hz};
+pub use blow::{Blow, BlowAccount, BlowFault, blows, usable_to_hz};
 pub use campaign::{Progress, Sink, Way, campaign};
 pub use channel::{BandQuality, Channel};
 pub use force::TapOptions;
-pub use hammer::{BlowAccount, Struck, hammered, struck};
+pub use hammer::{Struck, hammered, struck};
 pub use hammering::HammerSession;
 pub use hearing::Hearing;
 pub use latency::latency;

@@ -1,7 +1,6 @@
 //! The library that recordings are evaluated into: a new one, the existing one, or the existing one with
 //! more points.
 
-use super::TapeCalibration;
 use crate::TaskError;
 use crate::calibrate::campaign::{Campaign, PROBED};
 use std::collections::BTreeMap;
@@ -10,13 +9,6 @@ use unripple_store::{Library, LibraryPlan};
 
 /// Distance in metres below which two places count as the same.
 const SAME: f64 = 1e-9;
-
-impl TapeCalibration<'_> {
-    /// Creates or opens the library of this calibration, and adds points that the plan has gained.
-    pub fn library(&self) -> Result<Library, TaskError> {
-        library_of(&self.campaign)
-    }
-}
 
 /// Creates or opens the library of a calibration, and adds points that its plan has gained.
 pub fn library_of(campaign: &Campaign<'_>) -> Result<Library, TaskError> {

@@ -1,6 +1,7 @@
 //! Computes the library from the recordings that exist.
 
 use super::fault::Fault;
+use super::library::library_of;
 use super::marks::Marks;
 use super::planned::Wanted;
 use super::rig::{TapeLibraryFiller, TapeRig, bad};
@@ -40,7 +41,7 @@ impl TapeCalibration<'_> {
         if faults.iter().any(|fault| own.iter().any(|one| one.file == fault.file)) {
             return Ok(Outcome { faults, ..Outcome::default() });
         }
-        let mut library = self.library()?;
+        let mut library = library_of(&self.campaign)?;
         let made_own = self.made_own(&present, &marks);
         self.fall_back(&mut library, &self.made(&present, &marks), made_own.as_ref())?;
         let sound = self.sound(&present, &library, &mut faults);

@@ -2,6 +2,7 @@
 //! and blows are read.
 
 mod answer;
+mod channels;
 mod fault;
 mod library;
 mod marks;
@@ -15,28 +16,20 @@ mod struck;
 mod takes;
 mod wiring;
 
-use super::ask::{Ask, By};
+use super::ask::By;
 use super::campaign::Campaign;
 use super::points::{self, middle};
 use super::{Report, figure, levels, report};
-
 use crate::TaskError;
+use channels::{few, layout};
 use fault::Fault;
 use planned::{PlannedPoints, Wanted};
 use read::Reader;
 use std::path::{Path, PathBuf};
 use takes::Takes;
-use unripple::core::{FORCE, Layout, PROBE, Surface};
+use unripple::core::PROBE;
 use unripple_calibrate::measure::{MeasureOptions, Session, Wires};
 use unripple_store::Library;
-
-/// Samples of a block. Nothing waits for a block here, so that it only determines the silence at the
-/// beginning.
-const BLOCK: usize = 256;
-
-/// Largest number of recordings, all repeats of all points together: nobody makes more by hand. With twice
-/// this value, a plan takes 20 MB.
-const MOST_RECORDINGS: usize = 100_000;
 
 pub(super) use plan::drive as sweeps;
 
@@ -111,47 +104,6 @@ pub(super) fn run(mut campaign: Campaign<'_>) -> Result<Report, TaskError> {
         None => Ok(()),
     };
     calibration.answer(outcome, &told, drawn)
-}
-
-/// Returns an error for more recordings than anybody makes.
-fn few(points: usize, repeats: usize) -> Result<(), TaskError> {
-    let found = points.saturating_mul(repeats);
-    if found <= MOST_RECORDINGS {
-        return Ok(());
-    }
-    Err(TaskError::Input(format!(
-        "`tape`: expected at most {MOST_RECORDINGS} recordings, found {found} ({points} points times {repeats} `repeats`)"
-    )))
-}
-
-/// The channels, sample rate and full scale that recordings are to have.
-fn layout(ask: &Ask, surface: &Surface, full_scale: f64) -> Result<Layout, TaskError> {
-    let names: Vec<String> = surface.actuators.iter().map(|actuator| actuator.name.clone()).collect();
-    let inputs = match &ask.device.tape_inputs[..] {
-        [] => {
-            let last = match ask.by {
-                By::Probe => Some(PROBE),
-                By::Hammer => Some(FORCE),
-                By::Tap => None,
-            };
-            names.iter().cloned().chain(last.map(str::to_owned)).collect()
-        }
-        given => given.to_vec(),
-    };
-    if let Some(twice) = inputs.iter().enumerate().find(|(i, name)| inputs[..*i].contains(name)) {
-        return Err(TaskError::Input(format!(
-            "`tape_inputs`: expected each name once, found `{}` twice",
-            twice.1
-        )));
-    }
-    Ok(Layout {
-        device: "tape".into(),
-        rate: surface.emission.rate,
-        block: BLOCK,
-        outputs: names,
-        inputs,
-        full_scale,
-    })
 }
 
 impl TapeCalibration<'_> {

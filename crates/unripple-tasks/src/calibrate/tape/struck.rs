@@ -1,12 +1,13 @@
 //! Calibration by recordings of taps, or of a hammer's blows with their force, made elsewhere: nothing is played.
 
+use super::channels::{few, layout};
 use super::fault::Fault;
 use super::library::library_of;
 use super::marks::Marks;
 use super::planned::Wanted;
 use super::read::{Needed, Reader};
 use super::rig::TapeLibraryFiller;
-use super::{few, layout, strikes};
+use super::strikes;
 use crate::TaskError;
 use crate::calibrate::before;
 use crate::calibrate::campaign::Campaign;
