@@ -134,7 +134,8 @@ fn what_makes_no_sense_is_refused() {
         refused(&all, 2)
     };
     assert!(with(&[]).contains("--tape DIR"));
-    assert!(with(&["--tape", &folder, "--by", "tap"]).contains("found taps"));
+    assert!(with(&["--tape", &folder, "--by", "hammer"]).contains("force=100"));
+    assert!(with(&["--tape", &folder, "--by", "hammer", "--input-scale", "1"]).contains("none for `force`"));
     assert!(with(&["--tape", &folder, "--tape-inputs", "a1,a1"]).contains("`a1` twice"));
     assert!(with(&["--tape", &folder, "--tape-inputs", "a1,left"]).contains("called `probe`"));
     assert_eq!(scratch.names(), Vec::<String>::new());

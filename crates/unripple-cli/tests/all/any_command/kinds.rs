@@ -153,7 +153,7 @@ pub const KINDS: &[Kind] = &[
         words: "calibrate surface.toml -o measured",
         always: &[("--at", Place), ("--sweep-ms", Number(20.0, 100.0)), ("--response-ms", Number(5.0, 50.0))],
         perhaps: &[
-            ("--by", One(&["sweep", "tap"])),
+            ("--by", One(&["sweep", "tap", "hammer"])),
             ("--repeats", Whole(1, 2)),
             ("--level", Number(0.01, 1.0)),
             ("--unknowns", Whole(0, 9)),
