@@ -13,7 +13,7 @@ use unripple_tasks::{SurfaceAsk, text_forms};
 #[derive(Debug, Args)]
 #[command(after_help = examples::COMPARE)]
 pub struct CompareOptions {
-    /// Surface files, or names of built-in surfaces.
+    /// Surface files, names of built-in surfaces, or libraries of responses.
     #[arg(required = true)]
     pub surface: Vec<String>,
     /// Compare variants of each surface, one for each value of a key of its file, as in sheet.tension_n_per_m=200,300,400.

@@ -14,6 +14,37 @@ fn values(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
 }
 
+/// On a library of the same film, methods have the contrasts that `focus` has there; what needs modes says so.
+#[test]
+fn a_library_is_compared_on_its_own_points() {
+    let scratch = Scratch::new("compare-library");
+    let (file, library) = (scratch.file("film.toml", FILM), scratch.join("library"));
+    json(&["respond", &file, "--grid-mm", "12", "--length-ms", "70", "-o", &library]);
+    let at = ["--at", "62,90", "--window-ms", "30"];
+    let report = json(&[&["compare", &library, "--no-tradeoffs"], &at[..]].concat());
+    let names: Vec<&str> =
+        report["methods"].as_array().unwrap().iter().map(|row| row["method"].as_str().unwrap()).collect();
+    for needs in ["felt", "robust"] {
+        let failed = report["failed"].as_array().unwrap().iter().any(|failed| failed["method"] == needs);
+        assert!(failed && !names.contains(&needs), "{needs}: {names:?}");
+    }
+    assert!(report["judged_on"].as_str().unwrap().contains("points of"), "{}", report["judged_on"]);
+    for (i, method) in
+        names.iter().enumerate().filter(|(_, name)| ["time-reversal", "concentrate"].contains(name))
+    {
+        let out = scratch.join(method);
+        let alone = json(&[&["focus", &library, "--method", method, "-o", &out], &at[..]].concat());
+        let [one, other] = [
+            number(&report, &format!("/methods/{i}/targets/0/contrast")),
+            number(&alone, "/targets/0/contrast"),
+        ];
+        assert!((one / other - 1.0).abs() < 1e-6, "{method}: {one} {other}");
+    }
+    assert!(
+        refused(&[&["compare", &library, "--judge-hz", "1500"], &at[..]].concat(), 2).contains("library")
+    );
+}
+
 #[test]
 fn all_methods_stand_side_by_side() {
     let scratch = Scratch::new("compare");

@@ -11,9 +11,9 @@ use unripple::focus::Method;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
-    /// A surface file, or the name of a built-in surface.
+    /// A surface file, the name of a built-in surface, or a library of responses.
     pub surface: SurfaceAsk,
-    /// Further surfaces, on which the methods are compared too.
+    /// Further surfaces or libraries, on which the methods are compared too.
     pub others: Vec<SurfaceAsk>,
     /// Names of all surfaces in the report, one for each; by default the names in their files.
     pub labels: Vec<String>,

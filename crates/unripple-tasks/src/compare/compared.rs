@@ -5,13 +5,15 @@ use super::failed::{Failed, survived};
 use super::front::{self, Front};
 use super::ground::Ground;
 use super::row::{self, Row};
+use crate::source::{Source, Told};
 use crate::target::targets;
-use crate::window::{carries, of_window};
+use crate::window::{carries, conditions, of_window};
 use crate::{Progress, Solved, TaskError, cost, go_on, judge};
 use serde::Serialize;
-use unripple::act::{Readouts, chosen_window};
+use unripple::act::{Level, Note, Readouts, chosen_window};
 use unripple::core::{Responses, Surface};
 use unripple::focus::{Method, Options};
+use unripple_calibrate::Interpolation;
 
 /// Results of all methods on one surface, one row each, and the tradeoff curves of their parameters.
 #[derive(Clone, Debug, Serialize)]
@@ -27,12 +29,18 @@ pub struct Compared {
     pub window_why: Option<String>,
     /// Number of modes that drives were computed from: those in the surface's band.
     pub modes: usize,
-    /// Highest frequency of the modes that drives were evaluated on, in Hz.
+    /// Highest frequency of the modes that drives were evaluated on, in Hz; on a library the top of its band.
     pub judged_to_hz: f64,
     /// Reason why the modes for evaluation do not reach the default frequency or accuracy; absent if they
     /// do.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub judged_to_why: Option<String>,
+    /// Points of the library that drives were evaluated on; absent on a surface.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub judged_on: Option<String>,
+    /// Notes on the library; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<Note>,
     /// Results of every method that did not fail, time reversal first.
     pub methods: Vec<Row>,
     /// Methods that failed, each with the reason.
@@ -53,18 +61,26 @@ pub struct Compared {
 /// are several.
 pub(super) fn on(
     ask: &Ask,
-    surface: &Surface,
+    source: Source,
+    level: Level,
     (label, of): (String, &str),
     progress: &mut dyn Progress,
 ) -> Result<Compared, TaskError> {
     let solved = Solved::default();
-    announce(ask, surface, progress);
+    let source = source.with(&solved);
+    let unscaled = source.without_scale().is_some();
+    if source.stored.is_none() {
+        announce(ask, &source.surface, progress);
+    }
     progress.stage(&format!("{of}responses"));
-    let known = solved.model(surface, None, &[])?;
-    let targets = targets(&ask.points, &ask.shapes, known.conditions().lambda_min)?;
+    let lambda_min = source.lambda_min().unwrap_or_else(|| conditions(&source.surface).lambda_min);
+    let targets = targets(&ask.points, &ask.shapes, lambda_min)?;
+    let places: Vec<_> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
+    let (surface, known, stored) = source.respond(&places, Interpolation::default())?;
+    let surface = &surface;
     go_on(progress)?;
     progress.stage(&format!("{of}{}", judge::RESPONSES));
-    let (judge::Models { free: plant, .. }, judging) = judge::models(surface, ask.judge_hz, &[], &solved)?;
+    let (plant, judged) = evaluated(ask, surface, &known, stored, &solved)?;
     let asked = ask.window_s;
     go_on(progress)?;
     progress.stage(&format!("{of}window"));
@@ -78,29 +94,60 @@ pub(super) fn on(
         on: &Readouts::of(&plant).heard_at(judge::listening(ask.listen_m)?),
         targets: &targets,
         options: &settings(surface, window),
-        level: ask.level.level()?,
+        level,
     };
     let (mut methods, mut failed) = rows(&ground, ask, progress)?;
     let reversal = reversal(&methods)?;
     row::relate(&mut methods);
-    let (fronts, felt) = match ask.no_tradeoffs || !ask.others.is_empty() {
+    let (fronts, mut felt) = match ask.no_tradeoffs || !ask.others.is_empty() {
         true => (Vec::new(), Vec::new()),
         false => front::both(&ground, &methods, reversal, &mut failed, progress)?,
     };
+    if unscaled {
+        let ratios = |rows: Vec<Row>| rows.into_iter().map(Row::without_scale).collect();
+        (methods, felt) = (ratios(methods), ratios(felt));
+    }
     Ok(Compared {
         label,
         surface: surface.name.clone(),
         window_s: window,
         window_why: chosen.as_ref().map(|chosen| chosen.why.clone()),
         modes: modes(&known),
-        judged_to_hz: judging.hz,
-        judged_to_why: judging.why(),
+        judged_to_hz: judged.to_hz,
+        judged_to_why: judged.why,
+        judged_on: judged.on,
+        notes: judged.notes,
         methods,
         failed,
         fronts,
         felt,
         window_text: chosen.map(|chosen| chosen.text()),
     })
+}
+
+/// What drives are evaluated on, in words.
+struct JudgedOn {
+    to_hz: f64,
+    why: Option<String>,
+    on: Option<String>,
+    notes: Vec<Note>,
+}
+
+/// The responses that drives are evaluated on: modes beyond the band, or a library itself.
+fn evaluated(
+    ask: &Ask,
+    surface: &Surface,
+    known: &Responses,
+    stored: Option<Told>,
+    solved: &Solved,
+) -> Result<(Responses, JudgedOn), TaskError> {
+    if let Some((told, notes)) = stored {
+        let judged = JudgedOn { to_hz: known.conditions().band[1], why: None, on: Some(told), notes };
+        return Ok((known.clone(), judged));
+    }
+    let (judge::Models { free, .. }, judging) = judge::models(surface, ask.judge_hz, &[], solved)?;
+    let judged = JudgedOn { to_hz: judging.hz, why: judging.why(), on: None, notes: Vec::new() };
+    Ok((free, judged))
 }
 
 /// Number of drives that tradeoff curves are made of.

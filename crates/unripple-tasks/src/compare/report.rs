@@ -81,6 +81,8 @@ impl Report {
             let of = if self.has_several() { format!("{}: ", on.label) } else { String::new() };
             all.extend(on.window_text.iter().map(|window| format!("{of}window {window}")));
             all.extend(on.judged_to_why.iter().map(|why| format!("{of}{why}")));
+            all.extend(on.judged_on.iter().map(|told| format!("{of}evaluated on {told}")));
+            all.extend(on.notes.iter().map(|note| format!("{of}{}", note.text)));
         }
         all
     }

@@ -4,7 +4,7 @@ use super::ground::Ground;
 use super::trade::{Trade, traded};
 use crate::TaskError;
 use serde::Serialize;
-use unripple::act::{Act, Note, Sound, Strength, power};
+use unripple::act::{Act, Note, Sound, Strength, power, ratios_of};
 use unripple::core::clock::Instant;
 use unripple::field::{DriveFigures, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
@@ -85,6 +85,19 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
         notes,
         trade,
     })
+}
+
+impl Row {
+    /// This row without absolute displacements, velocities and levels, for responses without a known scale.
+    pub fn without_scale(self) -> Self {
+        Self {
+            targets: self.targets.into_iter().map(ratios_of).collect(),
+            mean_mechanical_power_w: None,
+            sound: self.sound.without_scale(),
+            level: self.level.allowing(None),
+            ..self
+        }
+    }
 }
 
 /// Relates the energies, drives for a felt level, and peaks of all rows to those of the first row: as

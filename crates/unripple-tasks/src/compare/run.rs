@@ -4,10 +4,11 @@ use super::{Ask, FailedSurface, On, Report, compared, figure};
 use crate::figures::Columns;
 use crate::judge::{listening, reaches};
 use crate::numbers::above_zero;
+use crate::source::{self, Source};
 use crate::target::targets;
 use crate::window::{carries, conditions};
 use crate::{Progress, TaskError, figures, folder, go_on};
-use unripple::core::Surface;
+use unripple::act::Level;
 use unripple::focus::Target;
 use unripple_plot::Figure;
 
@@ -41,12 +42,14 @@ use unripple_plot::Figure;
 /// [`TaskError::Ask`] of options that make no sense; those of reading and writing files; that of the first surface if all of them fail;
 /// [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
-    let surfaces = ask.all().map(|surface| surface.load()).collect::<Result<Vec<Surface>, TaskError>>()?;
-    let (columns, labels) = (Columns::of(ask.columns)?, labels(ask, &surfaces)?);
-    let level = ask.level.level()?;
-    check(ask, &surfaces)?;
+    let sources = ask.all().map(|asked| source::open(asked, progress));
+    let sources = sources.collect::<Result<Vec<Source>, TaskError>>()?;
+    let (columns, labels) = (Columns::of(ask.columns)?, labels(ask, &sources)?);
+    let unscaled = sources.iter().find_map(Source::without_scale);
+    let level = ask.level.level_on(unscaled.as_deref())?;
+    check(ask, &sources)?;
     let out = folder::begin(ask.output.as_deref(), ask)?;
-    let on = each(ask, &surfaces, labels, progress)?;
+    let on = each(ask, sources, labels, level, progress)?;
     let mut found = Report {
         program: "unripple",
         version: env!("CARGO_PKG_VERSION"),
@@ -68,12 +71,15 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 
 /// Checks the request before any long computation. With several surfaces, targets are checked later on each
 /// surface by itself.
-fn check(ask: &Ask, surfaces: &[Surface]) -> Result<(), TaskError> {
+fn check(ask: &Ask, sources: &[Source]) -> Result<(), TaskError> {
     let window = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
     listening(ask.listen_m)?;
-    if let [surface] = surfaces {
+    sources.iter().try_for_each(|source| source.allows(&[("judge_hz", ask.judge_hz.is_some())]))?;
+    if let [source] = sources {
+        let surface = &source.surface;
         reaches(surface, ask.judge_hz)?;
-        let conditions = conditions(surface);
+        let stored = source.stored.as_ref().map(|stored| stored.responses.conditions.clone());
+        let conditions = stored.unwrap_or_else(|| conditions(surface));
         window.map_or(Ok(()), |window| carries(&conditions, window, "window_s"))?;
         let targets = targets(&ask.points, &ask.shapes, conditions.lambda_min)?;
         Target::check(&targets, &surface.outline).map_err(TaskError::input)?;
@@ -83,16 +89,17 @@ fn check(ask: &Ask, surfaces: &[Surface]) -> Result<(), TaskError> {
 
 /// Name of each surface in the report: its label in the request, the name in its file, or the request's
 /// name for it where two files have the same name.
-fn labels(ask: &Ask, surfaces: &[Surface]) -> Result<Vec<String>, TaskError> {
-    let (given, count) = (ask.labels.len(), surfaces.len());
+fn labels(ask: &Ask, sources: &[Source]) -> Result<Vec<String>, TaskError> {
+    let (given, count) = (ask.labels.len(), sources.len());
+    let surfaces = || sources.iter().map(|source| &source.surface);
     if given == count {
         return Ok(ask.labels.clone());
     }
     if given > 0 {
         return Err(TaskError::ask("labels", format!("{count}, one for each surface"), given));
     }
-    let is_shared = |name: &str| surfaces.iter().filter(|surface| surface.name == name).count() > 1;
-    let called = surfaces.iter().zip(ask.all()).map(|(surface, asked)| match is_shared(&surface.name) {
+    let is_shared = |name: &str| surfaces().filter(|surface| surface.name == name).count() > 1;
+    let called = surfaces().zip(ask.all()).map(|(surface, asked)| match is_shared(&surface.name) {
         true => asked.to_string(),
         false => surface.name.clone(),
     });
@@ -103,16 +110,17 @@ fn labels(ask: &Ask, surfaces: &[Surface]) -> Result<Vec<String>, TaskError> {
 /// and the others continue.
 fn each(
     ask: &Ask,
-    surfaces: &[Surface],
+    sources: Vec<Source>,
     labels: Vec<String>,
+    level: Level,
     progress: &mut dyn Progress,
 ) -> Result<On, TaskError> {
     let (mut done, mut failed) = (Vec::new(), Vec::new());
-    let alone = surfaces.len() == 1;
-    for (surface, label) in surfaces.iter().zip(labels) {
+    let alone = sources.len() == 1;
+    for (source, label) in sources.into_iter().zip(labels) {
         go_on(progress)?;
         let of = if alone { String::new() } else { format!("{label}: ") };
-        match compared::on(ask, surface, (label.clone(), &of), progress) {
+        match compared::on(ask, source, level, (label.clone(), &of), progress) {
             Ok(on) if alone => return Ok(On::One(Box::new(on))),
             Ok(on) => done.push(on),
             Err(error) if alone || matches!(error, TaskError::Cancelled) => return Err(error),

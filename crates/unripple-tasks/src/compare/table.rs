@@ -128,10 +128,21 @@ impl Table<'_> {
         })
     }
 
+    /// What drives are evaluated on, in words.
+    fn judged_on(&self) -> String {
+        let libraries = self.surfaces.iter().filter(|on| on.judged_on.is_some()).count();
+        let modes = format!("simulated with modes up to {} Hz", self.judged_to());
+        match libraries {
+            0 => modes,
+            all if all == self.surfaces.len() => "evaluated on the points of the library".into(),
+            _ => format!("{modes}, or evaluated on the points of libraries"),
+        }
+    }
+
     /// Highest frequency of the modes that drives are evaluated on, in Hz, as text: the least and the
     /// greatest of all surfaces if they differ.
     fn judged_to(&self) -> String {
-        let tops = || self.surfaces.iter().map(|on| on.judged_to_hz);
+        let tops = || self.surfaces.iter().filter(|on| on.judged_on.is_none()).map(|on| on.judged_to_hz);
         let [least, most] =
             [tops().fold(f64::INFINITY, f64::min), tops().fold(0.0, f64::max)].map(|hz| format!("{hz:.0}"));
         if least == most { most } else { format!("{least} to {most}") }
@@ -161,11 +172,11 @@ impl std::fmt::Display for Table<'_> {
         let height = self.rows().next().map_or(LISTEN_M, |(_, row)| row.sound.at_m[2]);
         write!(
             f,
-            ", simulated with modes up to {} Hz. Energy for the same peak and peak at the drive limit are relative to time \
+            ", {}. Energy for the same peak and peak at the drive limit are relative to time \
              reversal's{of}; power: mechanical, into the sheet, on average; sound: A-weighted, {height} m above the middle, exposure \
              level of one drive or mean level of a repeated one; felt: dB above threshold, and below the target's level; drive for the same \
              felt level in dB over time reversal's.",
-            self.judged_to()
+            self.judged_on()
         )
     }
 }
@@ -185,7 +196,7 @@ fn figures(row: &Row) -> [String; 16] {
         number(of(|t| t.background_contrast), 1),
         number(of(|t| t.worst_spot), 2),
         number(of(|t| t.spot_diameter_m.map(|d| d * 1e3)), 2),
-        target.map_or("-".into(), |t| three(t.peak_velocity_m_s)),
+        target.filter(|t| t.peak_velocity_m_s.is_finite()).map_or("-".into(), |t| three(t.peak_velocity_m_s)),
         format!("{:.2}", row.energy_for_peak),
         row.mean_mechanical_power_w.map_or("-".into(), |watts| three(1e3 * watts)),
         number(row.sound.a_weighted_db(), 1),

@@ -41,7 +41,7 @@ pub use model::{accuracy, at_most, inexact, less_accurate, model, model_modes, m
 pub use note::{Note, nearby};
 pub use power::power;
 pub use readouts::{CELLS, Readouts};
-pub use report::{Channel, CoilHeat, Followed, Report, Stroked, unit};
+pub use report::{Channel, CoilHeat, Followed, Report, Stroked, ratios_of, unit};
 pub use send::Sent;
 pub use sound::{Hearing, LISTEN_M, Sound};
 pub use strength::{DecidedBy, Headroom, Strength};

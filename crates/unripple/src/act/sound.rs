@@ -114,7 +114,8 @@ impl Sound {
     }
 
     /// The sound of which no level is known, for responses without a scale.
-    pub(super) fn without_scale(self) -> Self {
+    #[must_use]
+    pub fn without_scale(self) -> Self {
         Self::without_levels(self.at_m, self.unknown.or_else(|| Some(WITHOUT_SCALE.to_owned())))
     }
 

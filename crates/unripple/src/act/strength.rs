@@ -89,7 +89,8 @@ impl Strength {
     }
 
     /// Adds the factor by which linear theory would allow the drive to grow.
-    pub(super) fn allowing(mut self, factor: Option<f64>) -> Self {
+    #[must_use]
+    pub fn allowing(mut self, factor: Option<f64>) -> Self {
         self.linear_theory_allows = factor;
         self
     }

@@ -7,6 +7,7 @@ mod unscaled;
 
 pub use heat::CoilHeat;
 pub use played::{Followed, Stroked};
+pub use unscaled::ratios_of;
 
 use super::{Felt, Judged, Note, Sound, Strength};
 use crate::core::{Actuator, ActuatorKind, CoilDrive, Drive, Surface};

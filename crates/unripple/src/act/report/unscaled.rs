@@ -9,15 +9,7 @@ impl Report {
     /// ratios, instants and positions only. The removed numbers are NaN, `null` in JSON.
     #[must_use]
     pub fn without_scale(mut self) -> Self {
-        let ratios = |target: TargetFigures| TargetFigures {
-            peak_velocity_m_s: f64::NAN,
-            peak_displacement_m: f64::NAN,
-            felt_level_db: None,
-            velocity_range_m_s: None,
-            displacement_range_m: None,
-            ..target
-        };
-        self.targets = std::mem::take(&mut self.targets).into_iter().map(ratios).collect();
+        self.targets = std::mem::take(&mut self.targets).into_iter().map(ratios_of).collect();
         self.felt_outside_db = None;
         self.linearity = None;
         self.mean_mechanical_power_w = None;
@@ -25,5 +17,18 @@ impl Report {
         self.level = self.level.map(|level| level.allowing(None));
         self.notes.retain(|note| note.topic != "linear theory");
         self
+    }
+}
+
+/// The figures of a target without absolute displacements, velocities and levels, for responses without a known scale: ratios, instants and
+/// positions are left. The removed numbers are NaN, `null` in JSON.
+pub fn ratios_of(target: TargetFigures) -> TargetFigures {
+    TargetFigures {
+        peak_velocity_m_s: f64::NAN,
+        peak_displacement_m: f64::NAN,
+        felt_level_db: None,
+        velocity_range_m_s: None,
+        displacement_range_m: None,
+        ..target
     }
 }
