@@ -192,11 +192,12 @@ pub(super) fn listen(
         unripple_calibrate::measure::record(rig.device(), &outputs, &scaled, &inputs, drive.samples())?;
     // The virtual surface is in SI units, and has no full scale.
     let absolute = known.scales.is_absolute();
-    let mut levels: Vec<Level> = heard
-        .iter()
-        .enumerate()
-        .map(|(input, line)| Level::of(&layout.inputs[input], input + 1, line, absolute))
-        .collect();
+    let level = |(input, line): (usize, &Vec<f64>)| {
+        let level = Level::of(&layout.inputs[input], input + 1, line, absolute);
+        // Nobody strikes while sweeps play.
+        if wires.force == Some(input) { level.unneeded() } else { level }
+    };
+    let mut levels: Vec<Level> = heard.iter().enumerate().map(level).collect();
     let mut judge = |channels: Vec<Channel>, inputs: Vec<usize>| {
         for (channel, input) in channels.iter().zip(inputs) {
             levels[input].judged(channel, &settings.without, &settings);
