@@ -96,17 +96,7 @@ pub(super) fn on(
         options: &settings(surface, window),
         level,
     };
-    let (mut methods, mut failed) = rows(&ground, ask, progress)?;
-    let reversal = reversal(&methods)?;
-    row::relate(&mut methods);
-    let (fronts, mut felt) = match ask.no_tradeoffs || !ask.others.is_empty() {
-        true => (Vec::new(), Vec::new()),
-        false => front::both(&ground, &methods, reversal, &mut failed, progress)?,
-    };
-    if unscaled {
-        let ratios = |rows: Vec<Row>| rows.into_iter().map(Row::without_scale).collect();
-        (methods, felt) = (ratios(methods), ratios(felt));
-    }
+    let Results { methods, failed, fronts, felt } = results(&ground, ask, unscaled, progress)?;
     Ok(Compared {
         label,
         surface: surface.name.clone(),
@@ -123,6 +113,35 @@ pub(super) fn on(
         felt,
         window_text: chosen.map(|chosen| chosen.text()),
     })
+}
+
+/// Rows and tradeoff curves of all methods.
+struct Results {
+    methods: Vec<Row>,
+    failed: Vec<Failed>,
+    fronts: Vec<Front>,
+    felt: Vec<Row>,
+}
+
+/// The rows of all methods and, on a single surface, their tradeoff curves; without absolute levels if the responses are `unscaled`.
+fn results(
+    ground: &Ground<'_>,
+    ask: &Ask,
+    unscaled: bool,
+    progress: &mut dyn Progress,
+) -> Result<Results, TaskError> {
+    let (mut methods, mut failed) = rows(ground, ask, progress)?;
+    let reversal = reversal(&methods)?;
+    row::relate(&mut methods);
+    let (fronts, mut felt) = match ask.no_tradeoffs || !ask.others.is_empty() {
+        true => (Vec::new(), Vec::new()),
+        false => front::both(ground, &methods, reversal, &mut failed, progress)?,
+    };
+    if unscaled {
+        let ratios = |rows: Vec<Row>| rows.into_iter().map(Row::without_scale).collect();
+        (methods, felt) = (ratios(methods), ratios(felt));
+    }
+    Ok(Results { methods, failed, fronts, felt })
 }
 
 /// What drives are evaluated on, in words.
