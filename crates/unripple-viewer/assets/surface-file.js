@@ -1,7 +1,9 @@
 // The surface as a file: built-in ones to open, one's own to load, the present one to save.
 
 import { el, clear, setText } from './dom.js';
+import { LARGEST } from './design-link.js';
 import { changedHere } from './recall.js';
+import { CopyLink, OpenLink, takeDrops } from './share.js';
 
 const BUILT_IN = [
   ['hudin-2012', 'hudin-2012: the film of the paper'],
@@ -10,9 +12,8 @@ const BUILT_IN = [
   ['picture-frame', 'picture-frame: one to build at home'],
   ['stadium-film', 'stadium-film: the film cut as a stadium'],
 ];
-const LARGEST = 256 * 1024;
 
-/** Open, load and save, with undo and redo of every edit. */
+/** Open, load, save and share, with undo and redo of every edit. */
 export class SurfaceFile {
   constructor(app, edits) {
     this.app = app;
@@ -22,16 +23,20 @@ export class SurfaceFile {
     this.open = el('select', { on: { change: () => this.opened() } });
     this.save = el('a', { class: 'button', href: app.line.address('/surface.toml'), download: 'surface.toml' }, 'Save as TOML');
     this.input = el('input', { type: 'file', class: 'seen-not', accept: '.toml,text/plain', on: { change: () => this.chosen() } });
+    this.link = new CopyLink(app);
     this.faults = el('div', { class: 'faults', role: 'alert', hidden: true });
     this.source = el('p', { class: 'quiet' });
     this.surface = null;
     this.modes = null;
     this.node = el('div', { class: 'stack' },
       el('div', { class: 'row' }, this.undoButton, this.redoButton, this.save,
-        el('label', { class: 'button file-button' }, 'Load a file…', this.input)),
+        el('label', { class: 'button file-button' }, 'Load a file…', this.input), this.link.button),
+      this.link.node,
       el('label', { class: 'field' }, el('span', {}, 'Open a built-in surface'), this.open),
       this.source, this.faults);
     document.addEventListener('keydown', (event) => this.shortcut(event));
+    takeDrops({ take: (file) => this.dropped(file), refuse: (why) => this.refuse(why) });
+    this.opener = new OpenLink(app, { put: (text, name) => this.put(text, name), refuse: (why) => this.refuse(why) });
     app.state.subscribe('settings', ({ modes }) => {
       this.modes = modes ?? null;
       this.tell();
@@ -40,6 +45,7 @@ export class SurfaceFile {
 
   show(surface) {
     this.surface = surface;
+    this.link.show(surface);
     this.undoButton.disabled = !surface.can_undo;
     this.redoButton.disabled = !surface.can_redo;
     const known = BUILT_IN.some(([name]) => name === surface.source);
@@ -82,15 +88,35 @@ export class SurfaceFile {
     if (!button.disabled) this.step(which);
   }
 
-  async chosen() {
+  chosen() {
     const [file] = this.input.files;
     this.input.value = '';
-    if (!file) return;
+    if (file) this.take(file);
+  }
+
+  dropped(file) {
+    this.app.show('design');
+    this.take(file);
+  }
+
+  /** Reads a surface file and opens what it says. */
+  async take(file) {
     if (file.size > LARGEST) {
       this.complain(`${file.name} has ${Math.ceil(file.size / 1024)} KiB, at most ${LARGEST / 1024} are taken`);
       return;
     }
-    const text = await file.text();
+    let text = '';
+    try {
+      text = await file.text();
+    } catch {
+      this.complain(`${file.name} cannot be read: expected a surface file. Is it a folder?`);
+      return;
+    }
+    await this.put(text, file.name);
+  }
+
+  /** Opens the surface of a text, which is called by a name. */
+  async put(text, name) {
     this.edits.finish();
     this.edits.begin();
     changedHere();
@@ -99,14 +125,22 @@ export class SurfaceFile {
       if (answer.ok) {
         changedHere();
         this.complain(null);
-        this.app.toast(`${file.name} is loaded`);
+        this.app.toast(`${name} is loaded`);
         return;
       }
       const said = await answer.json().catch(() => null);
-      this.complain(said?.text ?? `the server refused it (${answer.status})`, text, file.name);
+      this.app.show('design');
+      this.complain(said?.text ?? `the server refused it (${answer.status})`, text, name);
     } catch (error) {
+      this.app.show('design');
       this.complain(`no answer from the server: ${error.message}`);
     }
+  }
+
+  /** Says why something that came to the page is not taken. */
+  refuse(why) {
+    this.app.show('design');
+    this.complain(why);
   }
 
   complain(text, source = '', name = '') {

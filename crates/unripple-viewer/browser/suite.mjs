@@ -7,6 +7,7 @@ import './focus.test.mjs';
 import './framed.test.mjs';
 import './guard.test.mjs';
 import './keyboard.test.mjs';
+import './link.test.mjs';
 import './malformed.test.mjs';
 import './narrow.test.mjs';
 import './opens.test.mjs';
