@@ -12,6 +12,7 @@ import { mount as mountKeys } from './keys.js';
 import { line } from './line.js';
 import { Link } from './link.js';
 import { mount as mountMeasured } from './measured.js';
+import { Playout } from './playout.js';
 import { mount as mountReadout, mountFoot } from './readout.js';
 import { Recall } from './recall.js';
 import { mount as mountSettings } from './settings.js';
@@ -37,6 +38,8 @@ const about = (message) => (ABOUT.has(message.do) ? { ...message, edit: state.la
 
 const app = {
   state,
+  // A page that is opened to be measured or photographed does nothing of its own accord.
+  atRest: new URLSearchParams(location.search).get('intro') === '0',
   line,
   toast,
   announce,
@@ -54,6 +57,7 @@ const app = {
 };
 const stage = new Stage(app, cost);
 app.map = stage;
+app.playout = new Playout(app, stage);
 const touch = new Touch(app, stage);
 const transport = new Transport(app);
 

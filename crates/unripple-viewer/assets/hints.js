@@ -30,7 +30,7 @@ export class Hints {
     if (ui.pressed) return;
     ui.pressed = true;
     this.show();
-    if (this.#slowed(this.app.state.last('settings'))) return;
+    if (this.app.playout.active || this.#slowed(this.app.state.last('settings'))) return;
     setText(this.slow, SLOW);
     this.slow.hidden = false;
     this.app.announce(SLOW);

@@ -121,6 +121,16 @@ export function drawFingers(ctx, view, fingers, held, levels, reach) {
   }
 }
 
+/** Where waves have just met: a ring around the place and what it says. */
+export function drawMet(ctx, view, at, text) {
+  const [x, y] = view.toPx(at);
+  const radius = Math.max(16, 9 * view.scale);
+  rimmed(ctx, view, 2, ink(view.theme), () => ctx.arc(x, y, radius, 0, 2 * Math.PI));
+  const below = y - radius - 2 * view.font < 0;
+  const middle = Math.min(view.width - 5 * view.font, Math.max(5 * view.font, x));
+  label(ctx, view, `Focus: ${text}`, middle, below ? y + radius + view.font : y - radius - view.font, { size: 1.1 });
+}
+
 /** Probes: numbered diamonds in the colour of their trace. */
 export function drawProbes(ctx, view, probes, colourOf) {
   for (const probe of probes ?? []) {

@@ -134,12 +134,14 @@ export class Touch {
   #press(pointer, mm) {
     pointer.mm = mm;
     if (!this.stage.sheet.holds(mm)) return;
+    this.app.playout.press(mm);
     pointer.down = this.#send(pointer.finger, 'down', mm);
     if (pointer.down) this.#pressed();
   }
 
   /** In slow motion the waves take as many times longer to meet. */
   #sayWhen() {
+    if (this.app.playout.active) return;
     const { speed, paused, window_ms, window_auto_ms } = this.app.state.last('settings') ?? {};
     const wait = (window_ms ?? window_auto_ms) / 1000 / speed;
     if (!paused && wait > LONG_S) this.app.toast(`At this speed the waves meet in ${seconds(wait, 2)}.`);
@@ -288,6 +290,7 @@ export class Touch {
       return;
     }
     if (!this.stage.sheet.holds(this.stage.cursor)) return;
+    this.app.playout.press(this.stage.cursor);
     if (!this.#send(KEY_FINGER, 'down', this.stage.cursor)) return;
     this.#keyHeld = event.key === ' ' ? 'space' : 'enter';
     this.stage.pressing = true;

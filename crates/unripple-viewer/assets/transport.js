@@ -38,6 +38,7 @@ export class Transport {
   }
 
   #send(change) {
+    this.app.playout.interrupt();
     this.app.link.send({ do: 'transport', ...change });
   }
 

@@ -28,7 +28,15 @@ export function launch() {
   return browser;
 }
 
-/** Opens a viewer's page and waits for its first picture. `page.faults` collects errors and failed requests. */
+/** The address of a page that opens at rest, without its introduction; a touch is then played as fast as time is set to pass. */
+export function atRest(url) {
+  const address = new URL(url);
+  address.searchParams.set('intro', '0');
+  return address.href;
+}
+
+/** Opens a viewer's page and waits for its first picture; it opens at rest, unless the address says otherwise. `page.faults` collects errors
+ * and failed requests. */
 export async function open(t, url, options = {}) {
   const context = await (await launch()).newContext({ viewport: { width: 1280, height: 860 }, ...options });
   t.after(() => context.close());
@@ -39,7 +47,7 @@ export async function open(t, url, options = {}) {
   page.on('pageerror', (error) => page.faults.push(`thrown: ${error.message}`));
   page.on('requestfailed', (request) => page.faults.push(`failed: ${request.url()}`));
   page.on('response', (response) => response.status() >= 400 && page.faults.push(`${response.status()}: ${response.url()}`));
-  await page.goto(url);
+  await page.goto(new URL(url).searchParams.has('intro') ? url : atRest(url));
   await drawn(page, 0).catch((error) => {
     throw new Error(`${error.message}; the page had ${JSON.stringify(page.faults)}`);
   });

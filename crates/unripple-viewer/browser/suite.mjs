@@ -11,6 +11,7 @@ import './link.test.mjs';
 import './malformed.test.mjs';
 import './narrow.test.mjs';
 import './opens.test.mjs';
+import './playout.test.mjs';
 import './return.test.mjs';
 import './stop.test.mjs';
 import './stories.test.mjs';
