@@ -8,6 +8,7 @@ import { mount as mountExport } from './export.js';
 import { announce, copy, toast } from './faults.js';
 import { parseFrame } from './frame.js';
 import { mount as mountJobs } from './jobs.js';
+import { Intro } from './intro.js';
 import { mount as mountKeys } from './keys.js';
 import { line } from './line.js';
 import { Link } from './link.js';
@@ -148,3 +149,5 @@ fill('Stories', mountStories, document.getElementById('panel-stories'));
 fill('Rig', mountJobs, document.getElementById('panel-rig'));
 
 window.unripple = { state, map: stage, cost, touch, transport };
+app.intro = new Intro(app, stage);
+

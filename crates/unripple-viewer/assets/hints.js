@@ -14,14 +14,15 @@ export class Hints {
     this.stage = stage;
     this.press = document.getElementById('hint');
     this.slow = document.getElementById('slow-hint');
-    for (const kind of ['surface', 'view', 'tab']) app.state.subscribe(kind, () => this.show());
+    for (const kind of ['surface', 'view', 'tab', 'intro']) app.state.subscribe(kind, () => this.show());
     app.state.subscribe('settings', (settings) => this.#passing(settings));
   }
 
   /** Shows the first hint where it belongs. */
   show() {
     const { app, stage } = this;
-    this.press.hidden = app.state.ui.pressed === true || !stage.sheet || stage.view !== 'map' || app.shown() !== 'touch';
+    const introduced = app.state.last('intro')?.on === true;
+    this.press.hidden = introduced || app.state.ui.pressed === true || !stage.sheet || stage.view !== 'map' || app.shown() !== 'touch';
   }
 
   /** A finger is down. */

@@ -10,7 +10,10 @@ const SEEN = { dark: [79, 207, 155], light: [0, 105, 76] };
 
 /** Ink of a theme, as CSS. */
 export const ink = (theme, alpha = 1) => css(INK[theme] ?? INK.dark, alpha);
-const ground = (theme, alpha = 1) => css(GROUND[theme] ?? GROUND.dark, alpha);
+/** What lies behind ink, as CSS. */
+export const ground = (theme, alpha = 1) => css(GROUND[theme] ?? GROUND.dark, alpha);
+/** The colour of an actuator that plays, as CSS. */
+export const lit = (theme) => css(SEEN[theme] ?? SEEN.dark);
 
 /** A path on the field in ink over a rim of the ground, so that it reads on any colour. */
 function rimmed(ctx, view, width, colour, path) {
@@ -128,7 +131,7 @@ export function drawMet(ctx, view, at, text) {
   rimmed(ctx, view, 2, ink(view.theme), () => ctx.arc(x, y, radius, 0, 2 * Math.PI));
   const below = y - radius - 2 * view.font < 0;
   const middle = Math.min(view.width - 5 * view.font, Math.max(5 * view.font, x));
-  label(ctx, view, `Focus: ${text}`, middle, below ? y + radius + view.font : y - radius - view.font, { size: 1.1 });
+  label(ctx, view, text, middle, below ? y + radius + view.font : y - radius - view.font, { size: 1.1 });
 }
 
 /** Probes: numbered diamonds in the colour of their trace. */

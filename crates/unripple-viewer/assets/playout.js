@@ -30,12 +30,16 @@ const HALT_MS = 1600;
 /** Longest that a finger is waited for, in ms: it may have been pressed beside the surface, or refused. */
 const LOST_MS = 4000;
 
+/** So long, in ms, the session may take to tell how time passes now. */
+const TOLD_MS = 1000;
+
 const SAME_MM = 0.5;
 
 /** Plays touches out, one after the other. `on` says whether it does. */
 export class Playout {
   #now = null;
   #mark = null;
+  #restored = null;
   #still = matchMedia('(prefers-reduced-motion: reduce)');
 
   constructor(app, stage) {
@@ -81,7 +85,8 @@ export class Playout {
     const { state } = this.app;
     const { speed, paused, window_ms, window_auto_ms } = state.last('settings');
     // What was set before the touch that is still under way is what comes back.
-    const before = this.#now?.before ?? { speed, paused };
+    const late = this.#restored && performance.now() - this.#restored.since < TOLD_MS ? this.#restored : null;
+    const before = this.#now?.before ?? late ?? { speed, paused };
     this.#now?.done(null);
     clearTimeout(this.#now?.timer);
     this.unmark();
@@ -104,6 +109,7 @@ export class Playout {
 
   /** Somebody else moves time from here on. */
   interrupt() {
+    this.#restored = null;
     const plan = this.#now;
     if (!plan) return;
     this.#end();
@@ -162,14 +168,20 @@ export class Playout {
     clearTimeout(plan.timer);
     const { time, size } = plan.best;
     this.#send({ paused: true, shown_s: time });
-    this.mark(plan.mm, `${fieldValue(this.stage.quantity, size)}`);
+    this.mark(plan.mm, `focus: ${fieldValue(this.stage.quantity, size)}`);
     this.app.announce(`The waves meet: ${fieldValue(this.stage.quantity, size)}`);
     plan.done({ time, size });
     plan.timer = setTimeout(() => this.#now === plan && this.#goOn(plan), plan.halt);
   }
 
-  #goOn({ before: { speed, paused } }) {
+  #goOn({ before }) {
     this.#end();
+    this.restore(before);
+  }
+
+  /** Lets time pass as it did before, or stand still. */
+  restore({ speed, paused }) {
+    this.#restored = { speed, paused, since: performance.now() };
     if (paused) this.#send({ speed });
     else this.#send({ live: true, paused: false, speed });
   }

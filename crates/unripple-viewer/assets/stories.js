@@ -1,6 +1,7 @@
 // The stories panel: the list of stories, and the one that is running.
 
 import { el } from './dom.js';
+import { again } from './intro.js';
 import { StoryPlayer } from './story-player.js';
 import { oneActuator } from './story-one-actuator.js';
 import { twoFingers } from './story-two-fingers.js';
@@ -13,7 +14,8 @@ const STORIES = [oneActuator, twoFingers, backwards, better];
 export function mount(root, app) {
   const entries = new Map();
   const list = el('section', { class: 'stack' },
-    el('p', { class: 'quiet' }, 'Each story shows something on the surface itself, step by step, and puts everything back when it is left.'));
+    el('p', { class: 'quiet' }, 'Each story shows something on the surface itself, step by step, and puts everything back when it is left.'),
+    el('div', { class: 'row' }, again(app)));
   const player = new StoryPlayer(app, (story) => {
     list.hidden = false;
     entries.get(story.id)?.button.focus({ preventScroll: true });

@@ -6,6 +6,7 @@ import './file.test.mjs';
 import './focus.test.mjs';
 import './framed.test.mjs';
 import './guard.test.mjs';
+import './intro.test.mjs';
 import './keyboard.test.mjs';
 import './link.test.mjs';
 import './malformed.test.mjs';
