@@ -6,9 +6,10 @@ import { mount as mountDesign } from './design.js';
 import { el, setText } from './dom.js';
 import { mount as mountExport } from './export.js';
 import { announce, copy, toast } from './faults.js';
+import { Foci } from './foci.js';
 import { parseFrame } from './frame.js';
-import { mount as mountJobs } from './jobs.js';
 import { Intro } from './intro.js';
+import { mount as mountJobs } from './jobs.js';
 import { mount as mountKeys } from './keys.js';
 import { line } from './line.js';
 import { Link } from './link.js';
@@ -23,6 +24,7 @@ import { createState } from './state.js';
 import { mount as mountStories } from './stories.js';
 import { Tabs } from './tabs.js';
 import { startTheme } from './theme.js';
+import { Timeline } from './timeline.js';
 import { Touch } from './touch.js';
 import { mount as mountTraces } from './traces.js';
 import { Transport } from './transport.js';
@@ -61,6 +63,7 @@ app.map = stage;
 app.playout = new Playout(app, stage);
 const touch = new Touch(app, stage);
 const transport = new Transport(app);
+app.timeline = new Timeline(app, new Foci(state), transport);
 
 /** Fills a panel; a fault in one leaves the others whole. */
 function fill(name, mount, root, ...more) {
@@ -148,6 +151,6 @@ fill('Compare', mountCompare, document.getElementById('panel-compare'));
 fill('Stories', mountStories, document.getElementById('panel-stories'));
 fill('Rig', mountJobs, document.getElementById('panel-rig'));
 
-window.unripple = { state, map: stage, cost, touch, transport };
 app.intro = new Intro(app, stage);
 
+window.unripple = { state, map: stage, cost, touch, transport };

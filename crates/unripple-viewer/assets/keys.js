@@ -9,6 +9,7 @@ const KEYS = [
   [['P'], 'drop a probe at the cursor'],
   [['K'], 'pause or play'],
   [[',', '.'], 'one stored sample back or forward; with Shift 10'],
+  [['J', 'L'], 'to the previous or the next focus'],
   [['[', ']'], 'half or twice the speed'],
   [['N'], 'back to now'],
   [['Arrows', '+', '−', '0'], 'in the relief: turn, zoom, start view'],

@@ -17,6 +17,8 @@ const toSpeed = (slider) => (slider >= 999.5 ? 1 : SLOWEST ** (1 - slider / 1000
 
 /** The controls of time under the stage. */
 export class Transport {
+  /** What the slider of time reaches, {from, to} in s; `null` for all that is kept. */
+  zoom = null;
   #wanted = null;
 
   constructor(app) {
@@ -37,7 +39,8 @@ export class Transport {
     return this.app.state.last('settings')?.paused ?? false;
   }
 
-  #send(change) {
+  /** Changes how time passes, as a person asks for it. */
+  send(change) {
     this.app.playout.interrupt();
     this.app.link.send({ do: 'transport', ...change });
   }
@@ -46,8 +49,8 @@ export class Transport {
     const { back, pause, forward, now, scrub, speed, stops } = this.parts;
     back.addEventListener('click', (event) => this.#step(event.shiftKey ? -10 : -1));
     forward.addEventListener('click', (event) => this.#step(event.shiftKey ? 10 : 1));
-    pause.addEventListener('click', () => this.#send({ paused: !this.paused }));
-    now.addEventListener('click', () => this.#send({ live: true, paused: false }));
+    pause.addEventListener('click', () => this.send({ paused: !this.paused }));
+    now.addEventListener('click', () => this.send({ live: true, paused: false }));
     speed.addEventListener('input', () => {
       const value = toSpeed(Number(speed.value));
       this.#sayRate(value);
@@ -60,7 +63,7 @@ export class Transport {
     for (const stop of STOPS) {
       stops.append(el('button', {
         type: 'button', class: 'button small', text: stop === 1 ? 'Real time' : `1/${stop}`, dataset: { speed: 1 / stop },
-        'aria-pressed': 'false', on: { click: () => this.#send({ speed: 1 / stop }) },
+        'aria-pressed': 'false', on: { click: () => this.send({ speed: 1 / stop }) },
       }));
     }
   }
@@ -73,12 +76,12 @@ export class Transport {
     requestAnimationFrame(() => {
       const wanted = this.#wanted;
       this.#wanted = null;
-      this.#send(wanted);
+      this.send(wanted);
     });
   }
 
   #step(count) {
-    this.#send({ step: count });
+    this.send({ step: count });
   }
 
   #settings({ speed, paused }) {
@@ -97,12 +100,19 @@ export class Transport {
     this.parts.speed.setAttribute('aria-valuetext', speedText(speed));
   }
 
-  #status({ tail_s, head_s, shown_s }) {
+  /** Lets the slider of time reach what it is to reach. */
+  reach() {
+    const { scrub } = this.parts;
+    const { tail_s: tail, head_s: head, shown_s: shown } = this.app.state.last('status') ?? {};
+    scrub.min = String(this.zoom?.from ?? tail ?? 0);
+    scrub.max = String(this.zoom?.to ?? head ?? 1);
+    scrub.value = String(shown ?? head ?? 1);
+  }
+
+  #status({ shown_s }) {
     const { scrub } = this.parts;
     if (scrub.matches(':active')) return;
-    scrub.min = String(tail_s ?? 0);
-    scrub.max = String(head_s ?? 1);
-    scrub.value = String(shown_s ?? head_s ?? 1);
+    this.reach();
     scrub.setAttribute('aria-valuetext', this.#ago(shown_s));
   }
 
@@ -121,9 +131,10 @@ export class Transport {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches('select, input[type="text"]')) return;
     const many = event.shiftKey ? 10 : 1;
     const actions = {
-      k: () => this.#send({ paused: !this.paused }), n: () => this.#send({ live: true, paused: false }),
+      k: () => this.send({ paused: !this.paused }), n: () => this.send({ live: true, paused: false }),
       ',': () => this.#step(-1), '<': () => this.#step(-many), ';': () => this.#step(-many),
       '.': () => this.#step(1), '>': () => this.#step(many), ':': () => this.#step(many),
+      j: () => this.app.timeline.go(-1), l: () => this.app.timeline.go(1),
       '[': () => this.#faster(1 / 2), ']': () => this.#faster(2),
     };
     const action = actions[event.key.toLowerCase()];
@@ -134,6 +145,6 @@ export class Transport {
 
   #faster(factor) {
     const speed = this.app.state.last('settings')?.speed ?? 1;
-    this.#send({ speed: Math.min(1, Math.max(SLOWEST, speed * factor)) });
+    this.send({ speed: Math.min(1, Math.max(SLOWEST, speed * factor)) });
   }
 }

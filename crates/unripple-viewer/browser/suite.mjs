@@ -16,6 +16,7 @@ import './playout.test.mjs';
 import './return.test.mjs';
 import './stop.test.mjs';
 import './stories.test.mjs';
+import './timeline.test.mjs';
 import './viewers.test.mjs';
 import './words.test.mjs';
 import './worker.test.mjs';
