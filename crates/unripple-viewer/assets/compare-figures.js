@@ -1,6 +1,7 @@
 // The figures of two methods on the same act, side by side with their ratio.
 
 import { el, clear } from './dom.js';
+import { why } from './why.js';
 import { number, metres, speed, seconds, decibels } from './units.js';
 
 const plain = (value) => number(value);
@@ -93,7 +94,7 @@ export class CompareFigures {
         Number.isFinite(values[i]) ? `${tell(values[i])}${unit(i)}` : '–',
         best === i ? el('span', { class: 'seen-not' }, ' (better)') : null);
       this.body.append(el('tr', { role: 'row' },
-        el('th', { scope: 'row', role: 'rowheader' }, label), cell(0), cell(1), el('td', { role: 'cell' }, ratio(values, kind))));
+        el('th', { scope: 'row', role: 'rowheader' }, label, why(key, label)), cell(0), cell(1), el('td', { role: 'cell' }, ratio(values, kind))));
     }
   }
 }

@@ -1,6 +1,7 @@
 // The figures of a design, each beside what it was before the last edit.
 
 import { el, clear } from './dom.js';
+import { why } from './why.js';
 import { number } from './units.js';
 
 /** Headline and table of a `design` message; `before` is the message that held when the last edit began. */
@@ -31,7 +32,7 @@ export class DesignFigures {
       const was = old.get(figure.key);
       const changed = was && told(was) !== told(figure);
       this.body.append(el('tr', { class: changed ? 'is-changed' : '' },
-        el('th', { scope: 'row' }, figure.label ?? figure.key),
+        el('th', { scope: 'row' }, figure.label ?? figure.key, why(figure.key, figure.label ?? figure.key)),
         old.size ? el('td', { class: 'was' }, changed ? told(was) : was ? '=' : '–') : null,
         el('td', {}, told(figure))));
     }
@@ -41,19 +42,19 @@ export class DesignFigures {
   head(now, before) {
     const act = now.act ?? {};
     const rows = [
-      [act.at_mm ? `Contrast at ${act.at_mm.map((value) => Math.round(value)).join(', ')} mm` : 'Contrast', act.contrast, before?.act?.contrast],
-      ['Background contrast', act.background_contrast, before?.act?.background_contrast],
-    ].filter(([, value]) => Number.isFinite(value));
+      ['contrast', act.at_mm ? `Contrast at ${act.at_mm.map((value) => Math.round(value)).join(', ')} mm` : 'Contrast', act.contrast, before?.act?.contrast],
+      ['background_contrast', 'Background contrast', act.background_contrast, before?.act?.background_contrast],
+    ].filter(([, , value]) => Number.isFinite(value));
     clear(this.headline);
-    for (const [label, value, was] of rows) {
+    for (const [key, label, value, was] of rows) {
       this.headline.append(el('div', { class: 'headline-figure' },
-        el('span', { class: 'quiet' }, label),
+        el('span', { class: 'quiet' }, label, why(key, label)),
         el('strong', {}, Number.isFinite(was) ? `${number(was)} → ${number(value)}` : number(value)),
         change(was, value)));
     }
     if (!rows.length) this.headline.append(el('p', { class: 'quiet' }, 'No focus computed yet.'));
     if (now.done !== false && rows.length) {
-      const [label, value, was] = rows[0];
+      const [, label, value, was] = rows[0];
       this.told.textContent = Number.isFinite(was) ? `${label}: ${number(was)} before, ${number(value)} now` : `${label}: ${number(value)}`;
     }
   }

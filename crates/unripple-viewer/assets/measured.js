@@ -3,6 +3,7 @@
 import { Chart } from './chart.js';
 import { el, setText } from './dom.js';
 import { chosen } from './settings.js';
+import { why } from './why.js';
 import { decibels, fieldUnit, metres, number, place, seconds, speed } from './units.js';
 
 const FIGURES = [
@@ -22,15 +23,15 @@ function figures(report) {
   }
   const body = el('tbody');
   for (const [name, key, say] of FIGURES) {
-    body.append(el('tr', {}, el('th', { scope: 'row', text: name }), targets.map((target) => el('td', { text: say(target[key]) }))));
+    body.append(el('tr', {}, el('th', { scope: 'row' }, name, why(key, name)), targets.map((target) => el('td', { text: say(target[key]) }))));
   }
   const { drive = {}, actuators = [] } = report;
   const unit = actuators[0]?.unit ?? '';
-  const whole = (name, text) => body.append(el('tr', {}, el('th', { scope: 'row', text: name }), el('td', { colspan: Math.max(1, targets.length), text })));
-  whole('Drive peak', `${number(drive.peak)} ${unit}`);
-  whole('Drive rms', `${number(drive.rms)} ${unit}`);
-  whole('Drive energy', `${number(drive.energy)} ${unit}²·s`);
-  whole('Felt outside', decibels(report.felt_outside_db));
+  const whole = (name, key, text) => body.append(el('tr', {}, el('th', { scope: 'row' }, name, why(key, name)), el('td', { colspan: Math.max(1, targets.length), text })));
+  whole('Drive peak', 'peak', `${number(drive.peak)} ${unit}`);
+  whole('Drive rms', 'rms', `${number(drive.rms)} ${unit}`);
+  whole('Drive energy', 'energy', `${number(drive.energy)} ${unit}²·s`);
+  whole('Felt outside', 'felt_outside_db', decibels(report.felt_outside_db));
   table.append(body);
   return table;
 }

@@ -4,6 +4,7 @@ import { el } from './dom.js';
 import { again } from './intro.js';
 import { StoryPlayer } from './story-player.js';
 import { oneActuator } from './story-one-actuator.js';
+import { paper } from './why.js';
 import { twoFingers } from './story-two-fingers.js';
 import { backwards } from './story-backwards.js';
 import { better } from './story-better.js';
@@ -15,7 +16,7 @@ export function mount(root, app) {
   const entries = new Map();
   const list = el('section', { class: 'stack' },
     el('p', { class: 'quiet' }, 'Each story shows something on the surface itself, step by step, and puts everything back when it is left.'),
-    el('div', { class: 'row' }, again(app)));
+    el('div', { class: 'row' }, again(app)), paper());
   const player = new StoryPlayer(app, (story) => {
     list.hidden = false;
     entries.get(story.id)?.button.focus({ preventScroll: true });

@@ -18,5 +18,6 @@ import './stop.test.mjs';
 import './stories.test.mjs';
 import './timeline.test.mjs';
 import './viewers.test.mjs';
+import './why.test.mjs';
 import './words.test.mjs';
 import './worker.test.mjs';
