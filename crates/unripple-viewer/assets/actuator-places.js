@@ -61,9 +61,9 @@ export class ActuatorPlaces {
     const button = this.list.children[i]?.firstChild;
     if (!button) return;
     const { name, at_mm: [x, y], kind, limit, unit } = this.actuators[i];
-    button.textContent = `${name}  ${round(x)}, ${round(y)}`;
+    const unseen = (text) => el('span', { class: 'seen-not' }, text);
+    button.replaceChildren(el('span', {}, `${name} `, unseen('at '), `${round(x)}, ${round(y)}`, unseen(' mm')));
     button.disabled = this.locked;
-    button.setAttribute('aria-label', `${name} at ${round(x)}, ${round(y)} mm`);
     button.title = `${kind ?? 'actuator'}${limit ? `, up to ${limit} ${unit}` : ''}`;
     button.classList.toggle('is-chosen', i === this.chosen);
   }

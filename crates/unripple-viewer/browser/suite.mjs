@@ -1,5 +1,6 @@
 // All tests in one process, so that they share one browser.
 
+import './axe.test.mjs';
 import './compare.test.mjs';
 import './figures.test.mjs';
 import './file.test.mjs';
