@@ -3,8 +3,9 @@
 // The tap is the focus of this very surface run backwards, which is the same but for losses; what an actuator would hear of the tap is what
 // it plays for the focus, turned round: its drive, which comes with the pictures.
 
-import { drawHeard } from './intro-traces.js';
+import { holdsSurface } from './design-link.js';
 import { el, setText } from './dom.js';
+import { drawHeard } from './intro-traces.js';
 import { carried } from './outline.js';
 import { fieldValue } from './units.js';
 
@@ -28,6 +29,9 @@ const STEP_MS = 40;
 const STILLS = 3;
 
 const FOCUS = 0;
+
+/** While the ring runs out it grows weaker: so many times the colours follow it. */
+const RESCALED = 5;
 
 /** Parts one after the other: words, length in ms, and where in the window time is, from 0 (the focus) to 1, at each share of the part: slowest
  * near the focus, where a ring can be seen. */
@@ -57,7 +61,8 @@ export class Intro {
     }, true);
     app.state.subscribe('connection', ({ open }) => !open && this.end());
     app.state.subscribe('frame', (frame) => this.#hear(frame));
-    if (app.atRest || app.state.ui.introduced) return;
+    // Whoever opens a link wants to see what it holds.
+    if (app.atRest || app.state.ui.introduced || holdsSurface(location.hash)) return;
     const stop = app.state.subscribe('frame', () => {
       if (!app.state.last('status')) return;
       stop();
@@ -72,7 +77,7 @@ export class Intro {
     if (this.#running || !surface || !app.playout.allowed) return;
     stage.show('map');
     const { speed } = app.state.last('settings');
-    const run = { mm: carried(PLACE, SQUARE_MM, surface), speed, surface, heard: [], at: null, part: null, share: 0, sent: null };
+    const run = { mm: carried(PLACE, SQUARE_MM, surface), speed, surface, heard: [], at: null, part: null, share: 0, sent: null, rescaled: 0 };
     this.#running = run;
     app.state.publish('intro', { on: true });
     this.box.hidden = false;
@@ -133,6 +138,9 @@ export class Intro {
     run.share = this.#still.matches ? (Math.floor(share * STILLS) + 0.5) / STILLS : share;
     if (part !== run.part) this.#enter(run, part);
     run.at = part.at(run.share);
+    const rescaled = part.name === 'hear' ? Math.floor(RESCALED * run.share) : 0;
+    if (rescaled > run.rescaled) this.stage.rescale();
+    run.rescaled = rescaled;
     const shown_s = run.focus.time - run.at * run.window;
     if (shown_s !== run.sent) this.app.link.send({ do: 'transport', paused: true, shown_s });
     run.sent = shown_s;

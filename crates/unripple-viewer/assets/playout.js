@@ -16,6 +16,9 @@ const FAR_TAKES_S = 2.5;
 /** Speed at which the waves close in, if no slower one is set: a pulse of 0.17 ms then lasts a twelfth of a second. */
 const NEAR_SPEED = 1 / 500;
 
+/** Where less motion is wanted: a few pictures until the focus. Any faster, and a tap may be over before a picture of it is made. */
+const STILL_SPEED = 1 / 20;
+
 const SLOWEST = 1 / 2000;
 
 /** From this many times a trace's rms on, what is over is a focus, whatever comes. */
@@ -96,8 +99,8 @@ export class Playout {
     const still = this.#still.matches;
     const plan = {
       mm, window, halt, before, touched: null, untouched: state.last('frame')?.head.time_s ?? 0, best: null, halted: false,
-      far: still ? 1 : clamp(Math.max(hurry * (window - NEAR_S) / FAR_TAKES_S, chosen)),
-      near: still ? 1 : clamp(hurry * (chosen || NEAR_SPEED)),
+      far: still ? STILL_SPEED : clamp(Math.max(hurry * (window - NEAR_S) / FAR_TAKES_S, chosen)),
+      near: still ? STILL_SPEED : clamp(hurry * (chosen || NEAR_SPEED)),
     };
     const met = new Promise((done) => { plan.done = done; });
     plan.timer = setTimeout(() => this.#now === plan && plan.touched === null && this.interrupt(), LOST_MS);

@@ -112,6 +112,11 @@ export class Stage {
   /** Radius in mm of a finger's ring: it grows with the force, by its share of the strongest of late. */
   reach = ({ force_n }) => 3.5 + (this.#strongest > 0 ? 3 * Math.sqrt(Math.min(1, Math.abs(force_n ?? 0) / this.#strongest)) : 0);
 
+  /** Lets the colours follow what is shown at once, and not after a while, as where all of it is known to be weaker from now on. */
+  rescale() {
+    if (!this.#scale.held) this.#scale.reset();
+  }
+
   /** Draws something over the maps; returns how to remove it. */
   addLayer(layer) {
     this.layers.push(layer);

@@ -32,9 +32,11 @@ test('axe finds nothing', async (t) => {
       const lift = await press(page, [62, 90]);
       await until('a tick', () => page.locator('#ticks i').count());
       await lift();
-      await page.getByRole('button', { name: 'Measure', exact: true }).click();
-      await told(page, 'measured');
-      await page.locator('#panel-touch .why summary').first().click();
+      if (viewport.width < 1000) {
+        await page.getByRole('button', { name: 'Measure', exact: true }).click();
+        await told(page, 'measured');
+        await page.locator('#panel-touch .why summary').first().click();
+      }
       for (const name of TABS) {
         await page.getByRole('tab', { name }).click();
         await drawn(page);
