@@ -39,10 +39,13 @@ let ids = Math.floor(Math.random() * 2 ** 48);
 const ABOUT = new Set(['measure', 'compare']);
 const about = (message) => (ABOUT.has(message.do) ? { ...message, edit: state.last('surface')?.edit } : message);
 
+/** What the address asks of the introduction: '0' for none, '1' for it even in a frame. */
+const introduction = new URLSearchParams(location.search).get('intro');
+
 const app = {
   state,
-  // A page that is opened to be measured or photographed does nothing of its own accord.
-  atRest: new URLSearchParams(location.search).get('intro') === '0',
+  // A page that is opened to be measured or photographed does nothing of its own accord, and neither does one within another page.
+  atRest: introduction === '0' || (introduction !== '1' && window.self !== window.top),
   line,
   toast,
   announce,
