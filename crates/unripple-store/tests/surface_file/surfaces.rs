@@ -29,10 +29,11 @@ fn builtins_load_and_come_back() {
     }
 }
 
-/// No built-in has two actuators that a mirror or half a turn of its rectangle maps onto each other.
+/// No built-in has two actuators that a mirror or half a turn of its rectangle maps onto each other, but for the board of others, whose
+/// magnets are as they placed them.
 #[test]
 fn builtins_are_without_symmetry() {
-    for builtin in BUILTINS {
+    for builtin in BUILTINS.iter().filter(|builtin| builtin.name != "phone-board") {
         let surface = load_surface(builtin.name).unwrap();
         let (w, h) = surface.outline.extent();
         for a in &surface.actuators {
@@ -196,7 +197,7 @@ fn from_disk() {
     assert_eq!(
         error.to_string(),
         "no surface `picture-farme`: expected a file, or one of hudin-2012, glass-plate, picture-frame, \
-         stadium-film, drum \
+         stadium-film, drum, copper, spruce-a, spruce-b, phone-board, leissa, glass-2015 \
          (nearest: picture-frame)"
     );
 }

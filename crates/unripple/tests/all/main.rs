@@ -15,6 +15,7 @@ mod method_oracle;
 mod past_drift;
 mod past_reversal;
 mod power_oracle;
+mod published_surfaces;
 mod sound_report;
 mod surface_property;
 mod touch_oracle;
