@@ -38,6 +38,7 @@
 //! ```
 
 mod between;
+pub mod causes;
 mod drift;
 mod error;
 mod fit;
