@@ -53,7 +53,7 @@ fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
 }
 
 /// Says on standard error what to do, and waits for Enter once it is done.
-fn by_hand(bar: Bar) -> Hands {
+pub fn by_hand(bar: Bar) -> Hands {
     Box::new(move |asked| {
         bar.aside(|| {
             let mut out = std::io::stderr().lock();

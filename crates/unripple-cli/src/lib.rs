@@ -29,6 +29,7 @@ mod shell;
 mod sweep;
 mod talk;
 mod typed;
+mod verify;
 mod view;
 
 use args::{Arguments, Command};
@@ -109,6 +110,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Sweep(options) => sweep::run(options, common),
         Command::Optimise(options) => optimise::run(options, common),
         Command::Play(options) => play::run(options, common),
+        Command::Verify(options) => verify::run(options, common),
         Command::View(options) => view::run(options, common),
         Command::Materials(options) => output::perform(json, &options.ask(common)?, materials::run),
         Command::Devices(options) => output::perform(json, &options.ask(common)?, devices::run),

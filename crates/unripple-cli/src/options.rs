@@ -40,6 +40,11 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("plan", "PLAN"),
     ("error", "--error-percent"),
     ("recording", "RECORDING"),
+    ("target_m", "--at"),
+    ("instant_s", "--at-ms"),
+    ("probes_m", "--probe-mm"),
+    ("probe_count", "--probes"),
+    ("swapped", "--swapped"),
     ("waveforms and path", "--waveform and --path"),
 ];
 
@@ -47,7 +52,8 @@ const OTHERWISE: &[(&str, &str)] = &[
 /// quote other words.
 const ALIKE: &str = "window_s length_s duration_s period_s movie_s probe_delay_s sweep_s response_s rim_m apart_m mounting_m format losses \
     output_scale without any_wiring check_levels resample repeats level figure device tape tape_inputs by no_model even_if_doubtful unknowns \
-    method tuio websocket listen screen real_time record keep_drive follow_tension no_ask table";
+    method tuio websocket listen screen real_time record keep_drive follow_tension no_ask table \
+    probe_scale";
 
 /// The option of a field that has another name than its field.
 fn otherwise(field: &str) -> Option<&'static str> {

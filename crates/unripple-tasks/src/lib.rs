@@ -81,6 +81,7 @@ pub mod sweep;
 pub mod target;
 pub mod text_forms;
 mod thinned;
+pub mod verify;
 pub mod waveform;
 mod wavelength;
 mod window;

@@ -72,6 +72,11 @@ fn asks_about_surfaces_and_devices_go_through_json() {
     through_json(&devices::Ask::default());
     through_json(&doctor::Ask::default());
     through_json(&drift::Ask { changed: 0.005, ..drift::Ask::default() });
+    through_json(&verify::Ask {
+        target_m: Some([0.062, 0.09]),
+        clipped: Some(0.5),
+        ..verify::Ask::default()
+    });
     through_json(&fit::Ask::default());
     let mode = fit_modes::ModeAsk { frequency_hz: 73.2, decay_time_s: Some(0.25) };
     through_json(&fit_modes::Ask {
@@ -148,6 +153,7 @@ fn a_cancelled_task_leaves_nothing() {
     does_nothing(&devices::Ask::default(), devices::run);
     does_nothing(&doctor::Ask::default(), doctor::run);
     does_nothing(&drift::Ask::default(), drift::run);
+    does_nothing(&verify::Ask::default(), verify::run);
     let mode = fit_modes::ModeAsk { frequency_hz: 171.4, decay_time_s: None };
     let ask = fit_modes::Ask { modes: vec![mode], output: place.clone(), ..fit_modes::Ask::default() };
     does_nothing(&ask, fit_modes::run);

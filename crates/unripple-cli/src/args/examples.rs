@@ -131,6 +131,15 @@ pub const DRIFT: &str = "Examples:
   unripple drift hudin-2012 --changed-percent 2
   unripple drift rig.zarr --device jack";
 
+/// For `verify`: what would be played, a simulated sheet with a fault, and a real one.
+pub const VERIFY: &str = "Examples:
+  What would be played, and how loud:
+    unripple verify hudin-2012 --drive out/drive.wav --dry-run
+  On a simulated sheet whose tension is 2 % higher:
+    unripple verify hudin-2012 --drive out/drive.wav --changed-percent 2
+  On a real one, with a vibrometer of 0.5 m/s at full scale:
+    unripple verify rig.zarr --drive out/drive.wav --device jack --output-scale 2 --probe-scale 0.5";
+
 /// For `view`: on this machine alone, and for other machines.
 pub const VIEW: &str = "Examples:
   unripple view

@@ -21,6 +21,7 @@ mod rerun;
 mod sensors;
 mod shell;
 mod sweep;
+mod verify;
 mod view;
 
 use crate::common::Common;
@@ -49,6 +50,7 @@ use std::path::PathBuf;
 pub use sweep::SweepOptions;
 use unripple_paper::reproduce;
 use unripple_tasks::{design, devices, materials, modes, respond};
+pub use verify::VerifyOptions;
 pub use view::ViewOptions;
 
 /// Waves that meet under a fingertip: design, simulate and focus a reverberant touch surface.
@@ -131,6 +133,9 @@ pub enum Command {
     /// Measure whether the tension of a sheet still has the value for which its responses were measured or computed, and whether
     /// it is changing.
     Drift(DriftOptions),
+    /// Play a drive through a device, record a probe at its target and elsewhere, and print measured beside predicted, where they part and
+    /// the likeliest causes.
+    Verify(VerifyOptions),
     /// Show a surface in a browser: touch it, see its numbers, design it, compare methods.
     View(ViewOptions),
     /// Fit the model to the responses between the actuators of a calibrated library, and compute the fitted model's responses at

@@ -5,6 +5,7 @@ use crate::TaskError;
 use crate::{DeviceAsk, DeviceKind};
 use crate::{device, judge};
 use unripple::core::{FORCE, PROBE, Surface};
+use unripple::physics::stepper::InjectedFaults;
 use unripple_calibrate::measure::Rig;
 use unripple_devices::{DevicesError, Jack, Perturbation, VirtualOptions};
 
@@ -40,8 +41,24 @@ pub fn open_under(
     people: People,
     tension: Vec<(f64, f64)>,
 ) -> Result<Opened, TaskError> {
+    let faults = InjectedFaults { tension, ..InjectedFaults::default() };
+    open_with(options, surface, people, faults, None)
+}
+
+/// Opens the device that a request names, as [`open`] does; a virtual surface gets these faults, and modes up to `max_hz` (Hz; by default
+/// those that its band needs).
+pub fn open_with(
+    options: &DeviceAsk,
+    surface: &Surface,
+    people: People,
+    faults: InjectedFaults,
+    max_hz: Option<f64>,
+) -> Result<Opened, TaskError> {
     match options.device {
-        DeviceKind::Virtual => virtual_surface(options, surface, tension, people.hammer),
+        DeviceKind::Virtual => {
+            let plain = VirtualOptions { faults, max_hz, hammer: people.hammer, ..to_be_measured(surface)? };
+            virtual_surface(options, surface, &plain)
+        }
         DeviceKind::Jack => jack(options, surface, people),
         DeviceKind::Card => card(options, surface, people),
         DeviceKind::Tape => Err(TaskError::Input(
@@ -50,16 +67,18 @@ pub fn open_under(
     }
 }
 
+/// What a virtual surface is like where nothing else is asked for.
+fn to_be_measured(surface: &Surface) -> Result<VirtualOptions, TaskError> {
+    let plain = VirtualOptions::to_be_measured(surface).map_err(failed)?;
+    Ok(VirtualOptions { accuracy: judge::accuracy(surface), ..plain })
+}
+
 fn virtual_surface(
     options: &DeviceAsk,
     surface: &Surface,
-    tension: Vec<(f64, f64)>,
-    hammer: bool,
+    plain: &VirtualOptions,
 ) -> Result<Opened, TaskError> {
-    let plain = VirtualOptions::to_be_measured(surface).map_err(failed)?;
-    let mut plain = VirtualOptions { accuracy: judge::accuracy(surface), hammer, ..plain };
-    plain.faults.tension = tension;
-    let (device, unknowns) = device::virtual_surface(options, surface, &plain).map_err(failed)?;
+    let (device, unknowns) = device::virtual_surface(options, surface, plain).map_err(failed)?;
     let seed = unknowns.as_ref().map_or(0, |unknowns| unknowns.seed);
     Ok(Opened { rig: Box::new(VirtualRig::new(device, seed)), truth: unknowns.as_ref().map(said) })
 }

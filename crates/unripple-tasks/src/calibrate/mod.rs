@@ -24,7 +24,7 @@ mod without_force;
 
 pub use ask::{Ask, By, InputScales};
 pub(crate) use campaign::by_taps;
-pub(crate) use devices::{open, open_under};
+pub(crate) use devices::{open, open_under, open_with};
 pub use hands::{Hands, nobody};
 pub use levels::Levels;
 pub use outcome::Report;

@@ -5,7 +5,7 @@ use crate::record::{Record, Request};
 use crate::{Progress, TaskError};
 use crate::{
     calibrate, check, compare, design, devices, doctor, drift, export, field, fit, fit_modes, focus, import,
-    listen, materials, modes, place, play, respond, sensors, stroke, waveform,
+    listen, materials, modes, place, play, respond, sensors, stroke, verify, waveform,
 };
 use serde_json::Value;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ macro_rules! commands {
 /// The tasks in the order in which a surface is developed: designed, simulated, driven, measured, played.
 pub(crate) const TASKS: &[Command] = &commands![
     check, design, modes, materials, place, sensors, focus, waveform, stroke, field, compare, respond,
-    calibrate, import, fit, listen, fit_modes, export, drift, doctor, devices, play
+    calibrate, import, fit, listen, fit_modes, export, verify, drift, doctor, devices, play
 ];
 
 /// The task called `name`; `None` if there is none.

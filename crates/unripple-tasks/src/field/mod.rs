@@ -9,5 +9,6 @@ mod write;
 pub use ask::{Ask, DriveAsk};
 pub use made::Made;
 pub use report::Report;
+pub(crate) use run::drive;
 pub use run::{check, make, make_on, run, run_on};
 pub use write::{animation, figures};

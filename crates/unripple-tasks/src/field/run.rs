@@ -205,7 +205,8 @@ pub(super) fn animated(frames: usize, span: Option<[f64; 2]>) -> Result<(), Task
     Ok(())
 }
 
-fn drive(ask: &DriveAsk, surface: &Surface) -> Result<Drive, TaskError> {
+/// The drive of a request, for the actuators of a surface.
+pub(crate) fn drive(ask: &DriveAsk, surface: &Surface) -> Result<Drive, TaskError> {
     let names: Vec<String> = surface.actuators.iter().map(|a| a.name.clone()).collect();
     match ask {
         DriveAsk::File(file) => Ok(read_wav(file)?.into_drive(&names, &file.display().to_string())?),

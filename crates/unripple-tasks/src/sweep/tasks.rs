@@ -5,7 +5,7 @@ use serde_json::Value;
 use unripple_store::PlanTask;
 
 /// Tasks of devices, or that look at this machine: their reports are of the moment, and no process may disturb another.
-const OF_DEVICES: [&str; 3] = ["drift", "doctor", "play"];
+const OF_DEVICES: [&str; 4] = ["verify", "drift", "doctor", "play"];
 
 /// Fields that a plan does not set: the surface has a key of its own, and designs write no files.
 const NOT_SET: [&str; 2] = ["surface", "output"];

@@ -33,6 +33,7 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<listen::Ask>();
     whole::<fit_modes::Ask>();
     whole::<export::Ask>();
+    whole::<verify::Ask>();
     whole::<drift::Ask>();
     whole::<doctor::Ask>();
     whole::<devices::Ask>();
@@ -40,7 +41,7 @@ fn the_ask_of_every_command_is_that_of_its_task() {
     whole::<sweep::Ask>();
     whole::<optimise::Ask>();
     whole::<rerun::Ask>();
-    assert_eq!(commands::COMMANDS.len(), 25);
+    assert_eq!(commands::COMMANDS.len(), 26);
 }
 
 #[test]
