@@ -53,6 +53,7 @@ mod takes;
 mod tape;
 mod trusted;
 mod until_input_ends;
+mod verify;
 mod waveforms;
 mod window;
 #[path = "../../../unripple/tests/window_common/mod.rs"]
