@@ -14,8 +14,9 @@ pub(super) struct Agreement {
     pub gain: f64,
     /// Delay of the recordings, in samples.
     pub delay: f64,
-    /// Energy of the recordings in the band, in their unit squared, and the part of it that is left unexplained.
+    /// Energy of the recordings in the band: the sum of their squares over all samples.
     pub total: f64,
+    /// Part of that energy that is left unexplained.
     pub left: f64,
 }
 

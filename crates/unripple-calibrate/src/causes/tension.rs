@@ -12,7 +12,7 @@ const STEPS: i32 = 24;
 /// Number of times that the interval around the best step is shortened by the golden ratio: to 1e-5 of the tension.
 const SHORTENED: usize = 12;
 
-/// The golden ratio's inverse.
+/// The golden ratio's inverse, by which an interval is shortened so that one of two inner points serves again.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Finds the tension, relative to the model's, under which the model explains the recordings best, and the agreement there.

@@ -7,7 +7,9 @@ use serde_json::Value;
 /// Place (m) and instant (s) of the focus that a drive was made for, as far as they are known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Beside {
+    /// Place of the first target, in m.
     pub target: Option<Place>,
+    /// Focal instant of the first target, in s.
     pub instant: Option<f64>,
     /// Number of targets, of which the first is used.
     pub targets: usize,

@@ -24,7 +24,9 @@ const EDGE: f64 = 1.2;
 
 /// What is known before a drive is played.
 pub(super) struct Setting {
+    /// The surface, as its file or its library describes it.
     pub surface: Surface,
+    /// The responses by which it is predicted what a probe records.
     pub responses: Responses,
     /// Highest frequency of the modes, in Hz.
     pub hz: f64,
@@ -42,6 +44,7 @@ pub(super) struct Setting {
     pub disc: f64,
     /// Predicted velocity at each place in the band, places x samples, in m/s.
     pub predicted: Vec<Vec<f64>>,
+    /// Notes on target and responses.
     pub notes: Vec<Note>,
 }
 
