@@ -225,6 +225,11 @@ CASES: dict[str, tuple[list[str], Callable[[], ur.Report], Before | None]] = {
         lambda: film().calibrate("rig", unknowns=3, at=[(62, 90.1)], sweep_ms=100, response_ms=50.3),
         None,
     ),
+    "verify": (
+        ["verify", *_FILM, "--drive", "drive.wav", "--at", "62,90", "--probes", "2", "--changed-percent", "1.7"],
+        lambda: film().verify("drive.wav", at=(62, 90), probes=2, changed_percent=1.7),
+        _focus,
+    ),
     "drift": (
         ["drift", *_FILM, "--seconds", "2", "--changed-percent", "1.7"],
         lambda: film().drift(seconds=2, changed_percent=1.7),

@@ -42,6 +42,7 @@ from unripple._tasks import (
     sensors,
     sweep,
 )
+from unripple._verifying import verify
 from unripple._view import View
 from unripple._virtual import VirtualSurface
 
@@ -101,6 +102,7 @@ __all__ = [
     "set_threads",
     "stroke",
     "sweep",
+    "verify",
     "waveform",
 ]
 

@@ -19,6 +19,7 @@ _Done = TypeVar("_Done")
 _BESIDE = {
     "fit": {"grid_mm": "output", "at": "output", "even_if_doubtful": "output"},
     "calibrate": {"snr_db": "unknowns"},
+    "verify": {"snr_db": "unknowns"},
     "drift": {"snr_db": "unknowns"},
     "doctor": {"snr_db": "unknowns"},
     "optimise": {"stop_percent": "stop_after"},

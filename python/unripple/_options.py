@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from functools import cache, partial
 from typing import Any
 
-from unripple import _targets, _unripple, _values
-from unripple._errors import AskError, OptionError
+from unripple import _targets, _unripple, _values, _wiring
+from unripple._errors import OptionError
 from unripple._values import NOTHING, count, flag, milli, number, path, percent, text
 
 
@@ -63,37 +63,6 @@ def _places(name: str, *more: str) -> tuple[Option, ...]:
 def _polygons(name: str, more: str) -> tuple[Option, ...]:
     """Polygons with corners in mm: as the command line calls them, and as their field with another unit."""
     return Option(name, f"{more}_m", _values.polygons), Option(f"{more}_mm", f"{more}_m", _values.polygons)
-
-
-def _wires(name: str, value: object) -> list[list[str]]:
-    """Channels by the names of what is connected to them: a mapping, or texts NAME=CHANNEL."""
-    if isinstance(value, Mapping):
-        return [[text(name, key), text(name, channel)] for key, channel in value.items()]
-    return [list(_halves(name, item, "NAME=CHANNEL")) for item in _values.texts(name, value)]
-
-
-def _halves(name: str, item: str, form: str) -> tuple[str, str]:
-    key, equals, value = item.partition("=")
-    if not (key and equals and value):
-        raise AskError(field=name, expected=form, found=f"`{item}`")
-    return key, value
-
-
-def _scales(name: str, value: object) -> dict[str, Any]:
-    """Scales of inputs: a number for all, a mapping by their names, or texts [NAME=]SCALE."""
-    if isinstance(value, Mapping):
-        return {"named": {text(name, key): number(name, scale) for key, scale in value.items()}}
-    if not isinstance(value, str) and not hasattr(value, "__iter__"):
-        return {"all": number(name, value)}
-    found: dict[str, Any] = {"named": {}}
-    for item in _values.texts(name, value):
-        key, equals, scale = item.rpartition("=")
-        read = _values.row(name, scale, "a number, as in probe=0.5", 1, 1)[0]
-        if equals:
-            found["named"][key] = read
-        else:
-            found["all"] = read
-    return found
 
 
 def _limit(name: str, value: object) -> Any:
@@ -262,8 +231,8 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         Option("sweep_ms", "sweep_s", milli),
         Option("response_ms", "response_s", milli),
         *_same(number, "level"),
-        Option("wire", "wires", _wires),
-        Option("input_scale", "input_scales", _scales),
+        Option("wire", "wires", _wiring.wires),
+        Option("input_scale", "input_scales", _wiring.scales),
         *_same(_values.texts, "without"),
         Option("probe_delay_ms", "probe_delay_s", milli),
         *_same(flag, "no_model", "resample", "check_levels", "any_wiring"),
@@ -297,13 +266,27 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
         *_same(_band, "band_hz"),
         *_same(path, "table", "output"),
         Option("offset_mm", "offset_m", _values.place),
-        Option("actuator", "actuator_names", _wires),
+        Option("actuator", "actuator_names", _wiring.wires),
         *_same(_values.texts, "without"),
         Option("length_ms", "length_s", milli),
     ),
     "export": (
         *_same(path, "library", "output"),
         *_same(text, "format", "author", "organization", "license"),
+    ),
+    "verify": (
+        *_DEVICE,
+        Option("drive", "drive", _drive),
+        Option("at", "target_m", _values.place),
+        Option("at_ms", "instant_s", milli),
+        Option("probe_mm", "probes_m", _values.places),
+        Option("probes", "probe_count", count),
+        *_same(number, "level", "probe_scale", "judge_hz", "clipped"),
+        Option("wire", "wires", _wiring.wires),
+        *_same(text, "between"),
+        *_same(flag, "dry_run"),
+        Option("changed_percent", "changed", percent),
+        *_same(_wiring.wires, "swapped"),
     ),
     "drift": (
         *_DEVICE,
@@ -342,7 +325,7 @@ OPTIONS: dict[str, tuple[Option, ...]] = {
 }
 
 #: Fields in SI units that are lists of places, which are given as arrays too.
-_PLACES_M = ("points_m", "fingers_m", "silent_m", "bear_fingers_m", "places_m", "keep_m")
+_PLACES_M = ("points_m", "fingers_m", "silent_m", "bear_fingers_m", "places_m", "keep_m", "probes_m")
 
 #: Fields in SI units that are lists of polygons.
 _POLYGONS_M = ("within_m", "keep_out_m", "targets_within_m")

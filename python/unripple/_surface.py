@@ -17,6 +17,7 @@ from unripple._errors import SurfaceError
 from unripple._focusing import Focusing
 from unripple._report import Report
 from unripple._reporting import Reporting
+from unripple._verifying import Verifying
 
 if TYPE_CHECKING:
     from typing import Unpack
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 UNNAMED = "surface"
 
 
-class Surface(Reporting, Focusing):
+class Surface(Reporting, Verifying, Focusing):
     """A surface: the sheet, its edge, the actuators, and the limits of their drive. Immutable.
 
     Parameters
