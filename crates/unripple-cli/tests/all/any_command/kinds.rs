@@ -187,6 +187,19 @@ pub const KINDS: &[Kind] = &[
         always: &[("--seconds", Number(0.5, 2.0))],
         perhaps: &[("--within-percent", Number(1.0, 10.0)), ("--changed-percent", Number(0.1, 10.0))],
     },
+    Kind {
+        words: "verify surface.toml --drive out/drive.wav",
+        always: &[("--probes", Whole(0, 3))],
+        perhaps: &[
+            ("--at", Place),
+            ("--at-ms", Number(0.1, 100.0)),
+            ("--probe-mm", Place),
+            ("--level", Number(0.01, 1.0)),
+            ("--dry-run", Nothing),
+            ("--changed-percent", Number(0.1, 10.0)),
+            ("--clipped", Number(0.1, 1.0)),
+        ],
+    },
     Kind { words: "doctor surface.toml --tuio 0", always: &[], perhaps: &[] },
     Kind {
         words: "listen out/drive.wav",
