@@ -21,7 +21,7 @@ fn a_library_is_compared_on_its_own_points() {
     let (file, library) = (scratch.file("film.toml", FILM), scratch.join("library"));
     json(&["respond", &file, "--grid-mm", "12", "--length-ms", "70", "-o", &library]);
     let at = ["--at", "62,90", "--window-ms", "30"];
-    let report = json(&[&["compare", &library, "--no-tradeoffs"], &at[..]].concat());
+    let report = json(&[&["compare", &library], &at[..]].concat());
     let names: Vec<&str> =
         report["methods"].as_array().unwrap().iter().map(|row| row["method"].as_str().unwrap()).collect();
     for needs in ["felt", "robust"] {

@@ -102,14 +102,16 @@ fn brute_force(resonators: &[Resonator]) -> Vec<(f64, f64)> {
             }
         }
     }
+    // Time in units in which all entries are near one or below: in seconds, those of the highest mode would round away what is low.
+    let unit = poles().iter().fold(0.0, |unit: f64, pole| unit.max(pole.omega));
     let companion = Mat::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
         (true, _) => f64::from(u8::from(j == i + size)),
-        (false, true) => -stiffness[(i - size, j)] / mass[i - size],
-        (false, false) => -damping[(i - size, j - size)] / mass[i - size],
+        (false, true) => -stiffness[(i - size, j)] / mass[i - size] / (unit * unit),
+        (false, false) => -damping[(i - size, j - size)] / mass[i - size] / unit,
     });
     let General { values, .. } = general(companion.as_ref()).unwrap();
     let mut found: Vec<(f64, f64)> =
-        values.iter().filter(|s| s.im > 0.0).map(|s| (s.norm(), -s.re)).collect();
+        values.iter().filter(|s| s.im > 0.0).map(|s| (unit * s.norm(), -unit * s.re)).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found
 }
