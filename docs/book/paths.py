@@ -1,0 +1,35 @@
+"""Check that every source file and folder that the pages name is there.
+
+A path that begins with a crate (`crates/unripple-dsp/src/synth.rs`, or without `crates/`), with `python/` or with `xtask/` is looked for.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+#: A path in a code span: of a crate, of the Python package, of the tasks of development.
+PATH = re.compile(r"`((?:crates/)?unripple(?:-[a-z]+)?/(?:src|tests|schema|builtin|assets|browser)[\w/.-]*|(?:python|xtask)/[\w/.-]+)`")
+
+#: What stands in a path for a name that somebody will choose.
+TEMPLATE = re.compile(r"KIND|DEVICE|VERB")
+
+
+def faults() -> list[str]:
+    """Return the paths that pages name and that are not there."""
+    found = []
+    for page in [*ROOT.glob("*.md"), *sorted(ROOT.glob("docs/**/*.md"))]:
+        for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+            for path in PATH.findall(line):
+                if not (ROOT / path).exists() and not (ROOT / "crates" / path).exists() and not TEMPLATE.search(path):
+                    found.append(f"{page.relative_to(ROOT)}:{number}: no {path}")
+    return found
+
+
+if __name__ == "__main__":
+    missing = faults()
+    if missing:
+        sys.exit("\n".join(missing))
