@@ -30,6 +30,9 @@ copybutton_prompt_text = r"\$ |>>> |\.\.\. "
 copybutton_prompt_is_regexp = True
 copybutton_only_copy_prompt_lines = False
 
+# Longer signatures have a line for each argument.
+python_maximum_signature_line_length = 90
+
 html_theme = "furo"
 html_title = "Unripple"
 html_static_path = ["static"]

@@ -23,10 +23,6 @@ names: :doc:`a table </docs/python-parity>` lists them, and ``unripple COMMAND -
 
 .. py:module:: unripple
 
-.. contents::
-   :local:
-   :depth: 1
-
 """
 
 
