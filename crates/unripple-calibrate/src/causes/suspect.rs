@@ -39,7 +39,7 @@ impl Cause {
 /// A cause with what it leaves unexplained.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suspect {
-    /// The cause.
+    /// What may be wrong.
     pub cause: Cause,
     /// Amplitude that stays unexplained if this is the cause, as a share of the recordings'.
     pub left: f64,
