@@ -21,6 +21,31 @@ export function largest(page, around = null, reach = Infinity) {
   }, [around, reach]);
 }
 
+/**
+ * Notes of each picture, as it comes, where its field is largest, its rms, whether time stands still, and the words of the introduction; and all
+ * these words. The function returned gives what was noted. On a busy machine much goes by between two looks from outside.
+ */
+export async function watch(page) {
+  await page.evaluate(() => {
+    const { map, state } = window.unripple;
+    const text = document.getElementById('intro-text');
+    [window.shown, window.words] = [[], [text.innerText]];
+    new MutationObserver(() => window.words.push(text.innerText)).observe(text, { childList: true, characterData: true, subtree: true });
+    state.subscribe('frame', () => requestAnimationFrame(() => {
+      const { values, at_mm } = map.field();
+      let [cell, square] = [0, 0];
+      values.forEach((value, i) => {
+        square += value * value;
+        if (Math.abs(value) > Math.abs(values[cell])) cell = i;
+      });
+      const peak = Math.abs(values[cell]);
+      const { paused } = state.last('settings');
+      window.shown.push({ at_mm: at_mm(cell), peak, rms: Math.sqrt(square / values.length), paused, words: text.innerText });
+    }));
+  });
+  return () => page.evaluate(() => ({ shown: window.shown, words: window.words }));
+}
+
 /** How far two places are apart. */
 export const apart = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
 
