@@ -7,10 +7,8 @@ use crate::numbers::above_zero;
 use crate::{Place, Progress, TaskError, field, go_on, point, source};
 use std::f64::consts::PI;
 use unripple::act::Note;
-use unripple::core::{Drive, Point, Responses, SampledResponses, Surface};
-use unripple::dsp::convolve;
-use unripple::field::fits;
-use unripple::physics::sample;
+use unripple::core::{Drive, Point, Responses, Surface};
+use unripple::field::{Field, fits};
 use unripple_calibrate::signals::Band;
 
 /// Decay times that are recorded after the drive: a quarter of a per cent of its last waves is left then.
@@ -81,8 +79,8 @@ impl Setting {
                 (source.surface, models.free, judging.hz)
             }
         };
-        let samples = length(&responses, &drive);
-        let mut predicted = predict(&responses, &drive, &places, samples)?;
+        let mut predicted = predict(&responses, &drive, &places)?;
+        let samples = predicted[0].len();
         let band = band(hz, drive.rate());
         predicted.iter_mut().try_for_each(|line| band.limit(line, drive.rate())).map_err(TaskError::input)?;
         let instant = instant(ask, &beside, &predicted[0], drive.rate())?;
@@ -154,48 +152,20 @@ fn notes(ask: &Ask, beside: &Beside) -> Vec<Note> {
     several.then_some(Note { topic: "target", text }).into_iter().collect()
 }
 
-/// Number of samples to record: of a library as many as its responses tell, of modes until the waves have decayed.
-fn length(responses: &Responses, drive: &Drive) -> usize {
-    let sounds = |i: &usize| drive.channels().iter().any(|channel| channel[*i] != 0.0);
-    match responses {
-        Responses::Sampled(sampled) => (0..drive.samples()).find(sounds).unwrap_or(0) + sampled.samples(),
+/// The velocity at each place under a drive, in m/s, for as long as is recorded: as far as a library's responses tell it, by modes until the
+/// waves have decayed.
+fn predict(responses: &Responses, drive: &Drive, places: &[Point]) -> Result<Vec<Vec<f64>>, TaskError> {
+    let field = Field::new(responses, drive, 1.0).map_err(TaskError::input)?;
+    let samples = match responses {
+        Responses::Sampled(_) => field.known(),
         Responses::Modal(modal) => {
             let slowest = modal.poles.iter().map(|pole| pole.sigma).fold(f64::INFINITY, f64::min);
             let tail = (DECAYS / slowest.max(f64::MIN_POSITIVE)).min(LONGEST);
             drive.samples() + (tail * drive.rate()).ceil() as usize
         }
-    }
-}
-
-/// The velocity at each place under a drive, in m/s.
-fn predict(
-    responses: &Responses,
-    drive: &Drive,
-    places: &[Point],
-    samples: usize,
-) -> Result<Vec<Vec<f64>>, TaskError> {
-    let made;
-    let (known, index): (&SampledResponses, Vec<usize>) = match responses {
-        Responses::Modal(modal) => {
-            made = sample(modal, places, samples);
-            (&made, (0..places.len()).collect())
-        }
-        Responses::Sampled(sampled) => {
-            let index: Option<Vec<usize>> = places.iter().map(|place| sampled.nearest(*place)).collect();
-            let none = || TaskError::Input("expected a library with finished points, found none".into());
-            (sampled, index.ok_or_else(none)?)
-        }
     };
-    let at = |point: usize| {
-        let mut sum = vec![0.0; samples];
-        for (a, sent) in drive.channels().iter().enumerate() {
-            let response: Vec<f64> =
-                known.response(a, point).iter().map(|h| f64::from(*h) / drive.rate()).collect();
-            sum.iter_mut().zip(convolve(sent, &response)).for_each(|(to, v)| *to += v);
-        }
-        sum
-    };
-    Ok(index.into_iter().map(at).collect())
+    let traces = field.traces(places, (samples - 1) as f64 / drive.rate()).map_err(TaskError::input)?;
+    Ok(traces.into_iter().map(|trace| trace.velocity).collect())
 }
 
 /// The instant of the focus, in s.
