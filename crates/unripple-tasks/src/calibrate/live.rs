@@ -4,6 +4,7 @@ use super::campaign::Campaign;
 use super::devices::{self, Opened};
 use super::filler::LibraryFiller;
 use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
+use super::hammer;
 use super::outcome::doubted;
 use super::points::{self, middle};
 use super::rigs::People;
@@ -15,9 +16,9 @@ use crate::{TaskError, go_on};
 use serde_json::Value;
 use std::ops::ControlFlow;
 use unripple::core::clock::Instant;
-use unripple::core::{Device, FORCE, Layout, Point};
+use unripple::core::{Device, Layout, Point};
 use unripple_calibrate::measure::{
-    HammerSession, Listen, MeasureOptions, Progress, Rig, Session, Sink, Way, Wires, campaign,
+    Listen, MeasureOptions, Progress, Rig, Session, Sink, Way, Wires, campaign,
 };
 use unripple_devices::{Expected, WiringOptions, check_wiring};
 use unripple_store::{Library, PointState};
@@ -91,9 +92,7 @@ fn way_of(
     }
     let mut filler = filler.by_taps();
     let way = if known.ask.by == By::Hammer {
-        let newtons = known.scales.input(FORCE);
-        let session = HammerSession::new(known.surface, layout, wires, newtons, settings)?;
-        Way::Hammer(Box::new(session.by_scales(filler.sensors.clone())))
+        Way::Hammer(Box::new(hammer::session(known, &filler, layout, wires, settings)?))
     } else {
         Way::Tap(Box::new(taps::session(known, &mut filler, layout, wires, settings)?))
     };

@@ -7,6 +7,7 @@ mod devices;
 mod figure;
 mod filler;
 mod finish;
+mod hammer;
 mod hands;
 mod levels;
 mod live;

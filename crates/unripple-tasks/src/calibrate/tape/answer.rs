@@ -1,16 +1,12 @@
 //! The report of a calibration by recordings made elsewhere: what was measured, what is still to be
 //! recorded, what is wrong.
 
-use super::{Outcome, TapeCalibration, Wanted, fault::Fault, plan::PLAY};
+use super::{Outcome, TapeCalibration, Wanted, fault::Fault, plan::PLAY, planned::listed};
 use crate::TaskError;
 use crate::calibrate::outcome::doubted;
 use crate::calibrate::{Report, report};
 use serde_json::{Value, json};
 use std::fmt::Write;
-
-/// Largest number of missing recordings that are named one by one; beyond it, only their number is
-/// reported.
-const LISTED: usize = 12;
 
 impl TapeCalibration<'_> {
     /// Makes the report: what was measured, what is still to be recorded, and what is wrong.
@@ -89,7 +85,7 @@ impl TapeCalibration<'_> {
             Some(full) => format!("{full} of the actuators' unit"),
             None => "the surface's limit".into(),
         };
-        let mut text = format!(
+        let text = format!(
             "{} to be made in {}, while play.wav plays ({:.1} s, channels {}; full scale is {full}),\n\
              as WAV at {} Hz with the channels {}, from before it begins until after it ends:\n",
             recordings(missing.len()),
@@ -99,14 +95,11 @@ impl TapeCalibration<'_> {
             told["sample_rate_hz"].as_f64().unwrap_or(0.0),
             list("inputs"),
         );
-        for one in missing.iter().take(LISTED) {
+        let probe = |one: &Wanted| {
             let at = one.at.map_or_else(|| "anywhere".to_owned(), |at| format!("at {at}"));
-            let _ = writeln!(text, "  {:20} the probe {at}", one.file);
-        }
-        if missing.len() > LISTED {
-            let _ = writeln!(text, "  and {} more, see plan.json", missing.len() - LISTED);
-        }
-        text + "then the same command again, now or after each\n"
+            format!("the probe {at}")
+        };
+        text + &listed(missing, probe, ", see plan.json")
     }
 }
 

@@ -1,14 +1,13 @@
 //! The library that recordings are evaluated into: a new one, the existing one, or the existing one with
 //! more points.
 
+use super::planned::SAME;
 use crate::TaskError;
 use crate::calibrate::campaign::{Campaign, PROBED};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use unripple::core::Point;
-use unripple_store::{Library, LibraryPlan};
-
-/// Distance in metres below which two places count as the same.
-const SAME: f64 = 1e-9;
+use unripple_store::{Library, LibraryPlan, PointState};
 
 /// Creates or opens the library of a calibration, and adds points that its plan has gained.
 pub fn library_of(campaign: &Campaign<'_>) -> Result<Library, TaskError> {
@@ -21,6 +20,14 @@ pub fn library_of(campaign: &Campaign<'_>) -> Result<Library, TaskError> {
         }
     }
     Ok(Library::create(folder, &plan)?)
+}
+
+/// The points of `made` that were computed, but from other data than it says.
+pub fn outdated(library: &Library, made: &BTreeMap<usize, Value>) -> Vec<usize> {
+    let computed = |point: &usize| library.state(*point) != Some(PointState::Missing);
+    let other =
+        |point: &usize| library.logged_point(*point).and_then(|said| said.get("made")) != made.get(point);
+    made.keys().copied().filter(computed).filter(other).collect()
 }
 
 /// The number of each point in the existing plan `there`, if the new plan differs from it only by added

@@ -1,7 +1,7 @@
 //! Computes the library from the recordings that exist.
 
 use super::fault::Fault;
-use super::library::library_of;
+use super::library::{library_of, outdated};
 use super::marks::Marks;
 use super::planned::Wanted;
 use super::rig::{TapeLibraryFiller, TapeRig, bad};
@@ -121,9 +121,7 @@ impl TapeCalibration<'_> {
         made_own: Option<&Value>,
     ) -> Result<(), TaskError> {
         let measured = |point: &usize| library.state(*point) != Some(PointState::Missing);
-        let other =
-            |point: &usize| library.logged_point(*point).and_then(|said| said.get("made")) != made.get(point);
-        let mut changed: Vec<usize> = made.keys().copied().filter(measured).filter(other).collect();
+        let mut changed = outdated(library, made);
         let own = self.campaign.places.probed..library.points().len();
         // Libraries of before do not say who was left out.
         let same = |there: &Value| {
@@ -170,8 +168,8 @@ impl TapeCalibration<'_> {
     }
 }
 
-/// The measured channels, or the reason why the recording cannot be used; an error that is not due to a recording is returned as such.
-fn heard(found: Result<Vec<Channel>, CalibrateError>) -> Result<Result<Vec<Channel>, String>, TaskError> {
+/// What was measured, or the reason why the recording cannot be used; an error that is not due to a recording is returned as such.
+pub fn heard<T>(found: Result<T, CalibrateError>) -> Result<Result<T, String>, TaskError> {
     match found {
         Ok(channels) => Ok(Ok(channels)),
         Err(error @ (CalibrateError::Recording { .. } | CalibrateError::Dsp(_))) => {

@@ -6,7 +6,10 @@ use serde_json::Value;
 use unripple::core::Point;
 
 /// Distance in metres below which two places count as the same.
-const SAME: f64 = 1e-9;
+pub const SAME: f64 = 1e-9;
+
+/// Largest number of missing recordings that are named one by one; beyond it, only their number is reported.
+const LISTED: usize = 12;
 
 /// A recording that the plan requests.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +23,28 @@ pub struct Wanted {
     pub file: String,
     /// Place of the probe; `None` for the recording of the actuators, where the probe may be anywhere.
     pub at: Option<Point>,
+}
+
+/// Beginning of the names of a point's files: its number, from 1, among so many points.
+pub fn stem(number: usize, points: usize) -> String {
+    let digits = points.to_string().len().max(3);
+    format!("point-{number:0digits$}")
+}
+
+/// Name of the file of a repeat, counted from 0.
+pub fn file(stem: &str, repeat: usize) -> String {
+    let last = if repeat == 0 { String::new() } else { format!("-{}", repeat + 1) };
+    format!("{stem}{last}.wav")
+}
+
+/// Text on recordings that are missing, one line each with `what` is to be recorded; how many more there are, and where (`elsewhere`).
+pub fn listed(missing: &[&Wanted], what: impl Fn(&Wanted) -> String, elsewhere: &str) -> String {
+    let mut text: String =
+        missing.iter().take(LISTED).map(|one| format!("  {:20} {}\n", one.file, what(one))).collect();
+    if missing.len() > LISTED {
+        text += &format!("  and {} more{elsewhere}\n", missing.len() - LISTED);
+    }
+    text + "then the same command again, now or after each\n"
 }
 
 /// Points of the recordings that a plan requests: the place of the probe at each, and the beginning of its
@@ -59,14 +84,12 @@ impl PlannedPoints {
     /// All recordings of a calibration, in order; those of the actuators come first, if an input records
     /// the actuators. Points of this plan keep their files; files of new points get the next free numbers.
     pub fn wanted(&self, places: &Places, hears_itself: bool, repeats: usize) -> Vec<Wanted> {
-        let last = |repeat: usize| if repeat == 0 { String::new() } else { format!("-{}", repeat + 1) };
         let own = (0..repeats).filter(|_| hears_itself).map(|repeat| Wanted {
             number: places.points.len(),
             repeat,
-            file: format!("actuators{}.wav", last(repeat)),
+            file: file("actuators", repeat),
             at: None,
         });
-        let digits = places.probed.to_string().len().max(3);
         let mut known = self.points.clone();
         let mut next = self.points.len();
         let mut wanted: Vec<Wanted> = own.collect();
@@ -76,13 +99,13 @@ impl PlannedPoints {
                 Some(there) => known.swap_remove(there).1,
                 None => {
                     next += 1;
-                    format!("point-{next:0digits$}")
+                    stem(next, places.probed)
                 }
             };
             wanted.extend((0..repeats).map(|repeat| Wanted {
                 number,
                 repeat,
-                file: format!("{stem}{}.wav", last(repeat)),
+                file: file(&stem, repeat),
                 at: Some(*at),
             }));
         }

@@ -1,6 +1,6 @@
 //! Recordings of taps and blows made elsewhere: which file was recorded at which place.
 
-use super::planned::Wanted;
+use super::planned::{SAME, Wanted, file, stem};
 use crate::TaskError;
 use crate::calibrate::ask::Ask;
 use crate::calibrate::points::{self, Places};
@@ -9,9 +9,6 @@ use unripple::core::{Point, Surface};
 use unripple_calibrate::measure::MOST_REPEATS;
 use unripple_exchange::Csv;
 
-/// Distance in metres below which two places of a table count as the same.
-const SAME: f64 = 1e-9;
-
 /// The places of a calibration by recordings of taps or blows, and the recordings: those that a table lists, or for each point the first
 /// one, whether it is there or not, and the repeats of it that are in the folder.
 pub fn wanted(ask: &Ask, surface: &Surface, folder: &Path) -> Result<(Places, Vec<Wanted>), TaskError> {
@@ -19,12 +16,10 @@ pub fn wanted(ask: &Ask, surface: &Surface, folder: &Path) -> Result<(Places, Ve
         return listed(ask, table, surface);
     }
     let places = points::places(ask, surface, false)?;
-    let digits = places.probed.to_string().len().max(3);
     let mut wanted = Vec::new();
     for (number, at) in places.points.iter().enumerate() {
         for repeat in 0..MOST_REPEATS {
-            let last = if repeat == 0 { String::new() } else { format!("-{}", repeat + 1) };
-            let file = format!("point-{:0digits$}{last}.wav", number + 1);
+            let file = file(&stem(number + 1, places.probed), repeat);
             if repeat > 0 && !folder.join(&file).is_file() {
                 break;
             }

@@ -2,9 +2,10 @@
 
 use super::channels::{few, layout};
 use super::fault::Fault;
-use super::library::library_of;
+use super::library::{library_of, outdated};
 use super::marks::Marks;
-use super::planned::Wanted;
+use super::measure::heard;
+use super::planned::{Wanted, listed};
 use super::read::{Needed, Reader};
 use super::rig::TapeLibraryFiller;
 use super::strikes;
@@ -15,23 +16,20 @@ use crate::calibrate::filler::LibraryFiller;
 use crate::calibrate::finish::{begin, finish, log_run};
 use crate::calibrate::outcome::doubted;
 use crate::calibrate::report::Report as LibraryReport;
-use crate::calibrate::{By, Report, figure, levels, taps};
+use crate::calibrate::{By, Report, figure, hammer, levels, taps};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use unripple::core::Layout;
 use unripple::core::clock::Instant;
-use unripple::core::{FORCE, Layout};
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, HammerSession, MeasureOptions, Sink, TapSession, Wires};
 use unripple_calibrate::signals::Band;
-use unripple_store::{Library, PointState};
+use unripple_store::Library;
 
 /// What to do about a recording of which no response can be made.
 const MEND: &str =
     "look at the hammer and the sensors, and record it again (or keep it as bad with `any_wiring`)";
-
-/// Largest number of missing recordings that are named one by one.
-const LISTED: usize = 12;
 
 /// How responses are made of recordings.
 enum Way {
@@ -104,11 +102,7 @@ impl Recorded<'_> {
         let sound: Vec<Wanted> = present.into_iter().filter(|one| !copies.contains(&one.file)).collect();
         let mut library = library_of(&self.campaign)?;
         let made = self.made(&sound, &marks);
-        let changed = |point: &usize| {
-            library.state(*point) != Some(PointState::Missing)
-                && library.logged_point(*point).and_then(|log| log.get("made")) != made.get(point)
-        };
-        let changed: Vec<usize> = made.keys().copied().filter(changed).collect();
+        let changed = outdated(&library, &made);
         if !changed.is_empty() {
             library.forget(&changed)?;
         }
@@ -147,9 +141,7 @@ impl Recorded<'_> {
             let session = taps::session(known, filler, layout, wires, &known.settings)?;
             return Ok(Way::Tap(Box::new(session)));
         }
-        let newtons = known.scales.input(FORCE);
-        let session = HammerSession::new(known.surface, layout, wires, newtons, &known.settings)?;
-        Ok(Way::Hammer(Box::new(session.by_scales(filler.sensors.clone()))))
+        Ok(Way::Hammer(Box::new(hammer::session(known, filler, layout, wires, &known.settings)?)))
     }
 
     /// Computes and stores the points that have recordings.
@@ -176,18 +168,15 @@ impl Recorded<'_> {
                         session.responses(&lines, at).map(|channel| (session.fault(&channel), channel))
                     }
                 };
-                match found {
+                let why = match heard(found)? {
                     Ok((fault, channel)) if fault.is_none() || self.campaign.ask.any_wiring => {
                         sink.keep(number, &channel, fault.as_deref())?;
+                        None
                     }
-                    Ok((fault, _)) => {
-                        self.faults.push(Fault::new(&names.join(", "), fault.unwrap_or_default(), MEND));
-                    }
-                    Err(error @ (CalibrateError::Recording { .. } | CalibrateError::Dsp(_))) => {
-                        self.faults.push(Fault::new(&names.join(", "), error.to_string(), MEND));
-                    }
-                    Err(error) => return Err(error.into()),
-                }
+                    Ok((fault, _)) => fault,
+                    Err(why) => Some(why),
+                };
+                self.faults.extend(why.map(|why| Fault::new(&names.join(", "), why, MEND)));
             }
             self.campaign.with_progress(|progress| progress.done((done + 1) as f64 / there.len() as f64));
             if self.campaign.go_on().is_err() {
@@ -255,20 +244,14 @@ impl Recorded<'_> {
         }
         let what = if self.campaign.ask.by == By::Hammer { "a blow" } else { "a tap" };
         let layout = &self.reader.layout;
-        let mut text = format!(
+        let text = format!(
             "still to be recorded in {}, as WAV at {} Hz with the channels {}:\n",
             self.folder.display(),
             layout.rate,
             layout.inputs.join(", ")
         );
-        for one in missing.iter().take(LISTED) {
-            let at = one.at.map_or_else(String::new, |at| format!(" at {at}"));
-            text += &format!("  {:20} {what}{at}\n", one.file);
-        }
-        if missing.len() > LISTED {
-            text += &format!("  and {} more\n", missing.len() - LISTED);
-        }
-        text + "then the same command again, now or after each\n"
+        let at = |one: &Wanted| one.at.map_or_else(|| what.to_owned(), |at| format!("{what} at {at}"));
+        text + &listed(missing, at, "")
     }
 }
 
