@@ -48,7 +48,7 @@ pub mod ringing;
 pub mod signals;
 pub mod verify;
 
-pub use between::{Between, BetweenOptions, Interpolation, Uncertainty, Wavelength, wavelength};
+pub use between::{Between, BetweenOptions, Interpolation, Uncertainty, Wavelength, central, wavelength};
 pub use drift::*;
 pub use error::CalibrateError;
 pub use fit::*;

@@ -2,16 +2,13 @@
 
 use crate::TaskError;
 use serde_json::{Value, json};
-use unripple::core::{SampledResponses, Surface};
+use unripple::core::{Point, SampledResponses, Surface};
 use unripple::physics::Medium;
-use unripple_calibrate::wavelength;
+use unripple_calibrate::{central, wavelength};
 use unripple_store::Library;
 
 /// Key of the library's log entry.
 pub(crate) const KEY: &str = "wavelength";
-
-/// Largest number of points whose responses are read: the estimate uses no more.
-const MOST: usize = 100;
 
 /// Largest number of samples that are held, 80 MB: responses that are longer than this allows are cut off, since their beginning tells enough.
 const MOST_SAMPLES: usize = 20_000_000;
@@ -53,16 +50,17 @@ pub(crate) fn log(library: &mut Library, points: &[usize], surface: &Surface) ->
     Ok(library.log(KEY, told)?)
 }
 
-/// The estimate, from the points nearest to the middle of all.
+/// The estimate, of whose points no others are read than those it looks at.
 fn estimate(
     library: &Library,
     points: &[usize],
 ) -> Result<Option<unripple_calibrate::Wavelength>, TaskError> {
-    let Some(middle) = middle(library, points) else { return Ok(None) };
-    let mut near = points.to_vec();
+    if points.is_empty() {
+        return Ok(None);
+    }
     let place = |point: &usize| library.points()[*point];
-    near.sort_by(|a, b| place(a).distance(middle).total_cmp(&place(b).distance(middle)));
-    near.truncate(MOST);
+    let all: Vec<Point> = points.iter().map(place).collect();
+    let near: Vec<usize> = central(&all).into_iter().map(|index| points[index]).collect();
     let plan = library.plan();
     let kept = (MOST_SAMPLES / (near.len() * plan.ports.len()).max(1)).min(plan.samples);
     let mut data = Vec::new();
@@ -74,14 +72,6 @@ fn estimate(
     let responses = SampledResponses::new(plan.ports.clone(), places, plan.conditions.clone(), kept, data)
         .map_err(TaskError::work)?;
     wavelength(&responses).map_err(TaskError::work)
-}
-
-/// The mean of some points of a library; `None` without points.
-fn middle(library: &Library, points: &[usize]) -> Option<unripple::core::Point> {
-    let count = points.len() as f64;
-    let all = || points.iter().map(|point| library.points()[*point]);
-    let [x, y] = all().fold([0.0; 2], |sum, at| [sum[0] + at.x, sum[1] + at.y]);
-    (count > 0.0).then(|| unripple::core::Point::new(x / count, y / count))
 }
 
 /// What the log of a library says of its wavelength; `None` where its responses do not tell it.

@@ -16,4 +16,4 @@ mod wavelength;
 pub use options::{BetweenOptions, Interpolation};
 pub use plan::Between;
 pub use uncertainty::Uncertainty;
-pub use wavelength::{Wavelength, wavelength};
+pub use wavelength::{Wavelength, central, wavelength};

@@ -2,8 +2,9 @@
 
 use super::bessel::Bessel;
 use crate::CalibrateError;
+use crate::signals::line;
 use std::f64::consts::TAU;
-use unripple_core::SampledResponses;
+use unripple_core::{Point, SampledResponses};
 use unripple_dsp::median;
 
 /// First zero of the Bessel function J0: the correlation of a diffuse field vanishes first at this argument.
@@ -64,8 +65,10 @@ pub struct Wavelength {
 /// # Errors
 /// [`CalibrateError::Core`] if the responses cannot be selected.
 pub fn wavelength(responses: &SampledResponses) -> Result<Option<Wavelength>, CalibrateError> {
-    let Some(near) = nearest(responses) else { return Ok(None) };
-    let responses = responses.select(&near)?;
+    if responses.points.len() < LEAST_POINTS {
+        return Ok(None);
+    }
+    let responses = responses.select(&central(&responses.points))?;
     let points = &responses.points;
     let apart = |a: usize, b: usize| points[a].distance(points[b]);
     let count = points.len();
@@ -104,19 +107,20 @@ pub fn wavelength(responses: &SampledResponses) -> Result<Option<Wavelength>, Ca
     Ok(clear.then_some(Wavelength { metres, error, hz, first_zero: FIRST_ZERO / TAU * metres }))
 }
 
-/// Indices of the points nearest to the middle of all; `None` if there are too few.
-fn nearest(responses: &SampledResponses) -> Option<Vec<usize>> {
-    let points = &responses.points;
-    if points.len() < LEAST_POINTS {
-        return None;
-    }
-    let mean =
-        |of: fn(&unripple_core::Point) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
-    let middle = unripple_core::Point::new(mean(|p| p.x), mean(|p| p.y));
+/// Indices of the points (m) whose responses [`wavelength()`] looks at: the 100 nearest to the middle of all, the nearest first.
+///
+/// ```
+/// use unripple_core::Point;
+/// let line: Vec<Point> = (0..5).map(|i| Point::from_mm(f64::from(i), 0.0)).collect();
+/// assert_eq!(unripple_calibrate::central(&line)[0], 2);
+/// ```
+pub fn central(points: &[Point]) -> Vec<usize> {
+    let mean = |of: fn(&Point) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+    let middle = Point::new(mean(|p| p.x), mean(|p| p.y));
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|a, b| points[*a].distance(middle).total_cmp(&points[*b].distance(middle)));
     order.truncate(MOST_POINTS);
-    Some(order)
+    order
 }
 
 /// Spectra at some frequencies, in groups.
@@ -144,7 +148,7 @@ impl Spectra {
             let point = |point: usize| {
                 let one = |actuator: usize| {
                     let response = &responses.response(actuator, point)[..samples];
-                    group.iter().map(move |hz| line(response, hz / rate))
+                    group.iter().map(move |hz| line(response.iter().map(|x| f64::from(*x)), hz / rate))
                 };
                 (0..responses.ports.len()).flat_map(one).collect()
             };
@@ -179,18 +183,6 @@ impl Spectra {
             })
             .collect()
     }
-}
-
-/// Fourier transform of a response at a frequency in cycles per sample: real and imaginary part.
-fn line(response: &[f32], cycles: f64) -> [f64; 2] {
-    let (sin, cos) = (TAU * cycles).sin_cos();
-    let (mut turn, mut sum) = ([1.0, 0.0], [0.0; 2]);
-    for x in response {
-        let x = f64::from(*x);
-        sum = [sum[0] + x * turn[0], sum[1] - x * turn[1]];
-        turn = [turn[0] * cos - turn[1] * sin, turn[0] * sin + turn[1] * cos];
-    }
-    sum
 }
 
 /// Classes of distances of pairs of points.

@@ -1,8 +1,7 @@
 //! Blows of a hammer with a force sensor: found in the recorded force, and checked.
 
 use crate::CalibrateError;
-use crate::signals::clipped;
-use std::f64::consts::TAU;
+use crate::signals::{clipped, line};
 use unripple_dsp::median;
 
 /// Least ratio of a blow's peak to the standard deviation of the force's noise: the largest of a million samples of Gaussian noise is at
@@ -228,13 +227,7 @@ pub(super) fn overload(sensors: &[&[f64]]) -> Option<BlowFault> {
 pub fn usable_to_hz<'a>(blows: impl Iterator<Item = &'a Blow> + Clone, rate: f64, top: f64) -> Option<f64> {
     let power = |hz: f64| -> f64 {
         let one = |blow: &Blow| {
-            let turn = |(i, f): (usize, &f64)| {
-                let (sin, cos) = (TAU * hz * i as f64 / rate).sin_cos();
-                [f * cos, f * sin]
-            };
-            let [re, im] =
-                blow.force.iter().enumerate().map(turn).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
-            re * re + im * im
+            line(blow.force.iter().copied(), hz / rate).iter().map(|part| part * part).sum::<f64>()
         };
         blows.clone().map(one).sum()
     };
