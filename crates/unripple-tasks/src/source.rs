@@ -6,6 +6,7 @@ use std::cell::RefCell;
 use std::path::PathBuf;
 use unripple::act::Note;
 use unripple::core::{Point, Responses, SampledResponses, Surface};
+use unripple::physics::Medium;
 use unripple_calibrate::Interpolation;
 use unripple_store::{Library, surface_files};
 
@@ -231,6 +232,12 @@ impl Source {
     /// The shortest wavelength in a library's band, in m; `None` for a surface.
     pub fn lambda_min(&self) -> Option<f64> {
         self.stored.as_ref().map(|stored| stored.responses.conditions.lambda_min)
+    }
+
+    /// The shortest wavelength in the band, in m: that of a library, or of the sheet.
+    pub fn shortest_wavelength(&self) -> f64 {
+        self.lambda_min()
+            .unwrap_or_else(|| Medium::of(&self.surface.sheet).lambda_min(self.surface.emission.band[1]))
     }
 
     /// Reason why absolute displacements and velocities are unknown; `None` if they are known.

@@ -7,7 +7,7 @@ use super::ground::Ground;
 use super::row::{self, Row};
 use crate::source::{Source, Told};
 use crate::target::targets;
-use crate::window::{carries, conditions, of_window};
+use crate::window::{carries, of_window};
 use crate::{Progress, Solved, TaskError, cost, go_on, judge};
 use serde::Serialize;
 use unripple::act::{Level, Note, Readouts, chosen_window};
@@ -73,8 +73,7 @@ pub(super) fn on(
         announce(ask, &source.surface, progress);
     }
     progress.stage(&format!("{of}responses"));
-    let lambda_min = source.lambda_min().unwrap_or_else(|| conditions(&source.surface).lambda_min);
-    let targets = targets(&ask.points, &ask.shapes, lambda_min)?;
+    let targets = targets(&ask.points, &ask.shapes, source.shortest_wavelength())?;
     let places: Vec<_> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
     let (surface, known, stored) = source.respond(&places, Interpolation::default())?;
     let surface = &surface;

@@ -10,7 +10,6 @@ use crate::{Progress, Solved, Source, TaskError, cost, fingers, folder, go_on, j
 use unripple::act::{self, Act, Aware, Note};
 use unripple::core::{Decay, Responses, Surface};
 use unripple::focus::{LossCorrection, Method, Options};
-use unripple::physics::Medium;
 
 /// Computes a drive that focuses on points and shapes, evaluates it, and writes it to a folder if the
 /// request names one.
@@ -78,9 +77,8 @@ pub fn make_on(ask: &Ask, source: Source, progress: &mut dyn Progress) -> Result
     go_on(progress)?;
     let unscaled = source.without_scale().filter(|_| plant.is_none());
     let solved = source.solved.clone();
-    let known = source.lambda_min();
-    let targets = targets(&ask.points, &ask.shapes, known.unwrap_or_else(|| shortest(&source.surface)))?;
-    if known.is_none() {
+    let targets = targets(&ask.points, &ask.shapes, source.shortest_wavelength())?;
+    if source.lambda_min().is_none() {
         lasts(ask, &source.surface)?;
     }
     possible(ask, &source.surface, plant.as_ref().unwrap_or(&source.surface), &targets)?;
@@ -148,11 +146,6 @@ fn announce(ask: &Ask, source: &Source, plant: Option<&Surface>, progress: &mut 
 
 /// What would cost less than a drive that takes long.
 const LESS: &str = "a lower top of the band, a coarser `accuracy` or a lower `judge_hz`";
-
-/// The shortest wavelength of a surface's band, in m.
-fn shortest(surface: &Surface) -> f64 {
-    Medium::of(&surface.sheet).lambda_min(surface.emission.band[1])
-}
 
 /// Adds notes to a report on the library that its responses are from, and on its points that replace
 /// requested ones.

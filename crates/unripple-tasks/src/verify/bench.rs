@@ -1,6 +1,7 @@
 //! Plays the drive through a device, level after level, and records the probe at each place.
 
 use super::Ask;
+use super::report::peak;
 use super::setting::Setting;
 use crate::calibrate::Hands;
 use crate::calibrate::{People, open_with};
@@ -144,14 +145,8 @@ impl<'a> Bench<'a> {
         level: f64,
     ) -> Result<Vec<f64>, TaskError> {
         self.rig.ready(number, place, attempt)?;
-        let drive: Vec<Vec<f64>> = self
-            .setting
-            .drive
-            .channels()
-            .iter()
-            .map(|line| line.iter().map(|x| x * level).collect())
-            .collect();
-        let heard = self.listen(&drive, self.samples)?;
+        let drive = self.setting.drive.clone().scaled(level);
+        let heard = self.listen(drive.channels(), self.samples)?;
         let own = ask.device.device == DeviceKind::Virtual;
         let samples: Vec<f64> = heard.iter().map(|v| v / self.scale).collect();
         let flat = if own { 0 } else { clipped(&samples, 1.0) };
@@ -160,8 +155,7 @@ impl<'a> Bench<'a> {
                 "the probe's recording at {place} is clipped at level {level} ({flat} samples): turn its gain down"
             )));
         }
-        let most = |line: &[f64]| line.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-        let (found, expected) = (most(&heard), level * most(&self.setting.predicted[number]));
+        let (found, expected) = (peak(&heard), level * peak(&self.setting.predicted[number]));
         if self.setting.scaled && self.is_scaled(ask) && number == 0 && found > TOO_FAST * expected {
             return Err(TaskError::Work(format!(
                 "stopped at level {level:.3}: expected at most {expected:.3e} m/s at the target, found {found:.3e} m/s; look at the \

@@ -3,7 +3,6 @@
 use super::Ask;
 use crate::{Source, TaskError, point};
 use unripple::core::{FOCAL_RADIUS, Outline, Point};
-use unripple::physics::Medium;
 
 /// Largest number of places that are chosen or given: on a real surface somebody moves the probe to each.
 const MOST: usize = 64;
@@ -30,9 +29,7 @@ pub(super) fn check(ask: &Ask) -> Result<(), TaskError> {
 
 /// Radius of the focal disc, in m.
 pub(super) fn disc(source: &Source) -> f64 {
-    let surface = &source.surface;
-    let own = || Medium::of(&surface.sheet).lambda_min(surface.emission.band[1]);
-    FOCAL_RADIUS * source.lambda_min().unwrap_or_else(own)
+    FOCAL_RADIUS * source.shortest_wavelength()
 }
 
 /// All places, the target first; each must lie on the sheet.

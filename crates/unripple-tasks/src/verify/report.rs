@@ -4,7 +4,7 @@ use super::analysis::Analysis;
 use super::bench::Recorded;
 use super::parting::{InBand, InTime, in_bands, in_time};
 use super::setting::{Setting, spot};
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use unripple::act::{self, Note};
 use unripple::core::{ActuatorKind, Point, Surface};
 use unripple::dsp::rms;
@@ -19,7 +19,8 @@ const SAME: f64 = 0.03;
 const EXPLAINED: f64 = 0.1;
 
 /// Whether the bench does what was predicted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum State {
     /// Nothing was played: a dry run.
     Planned,
@@ -27,23 +28,6 @@ pub enum State {
     Agrees,
     /// They are not.
     Differs,
-}
-
-impl State {
-    /// Name of the state in reports and JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Planned => "planned",
-            Self::Agrees => "agrees",
-            Self::Differs => "differs",
-        }
-    }
-}
-
-impl Serialize for State {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name())
-    }
 }
 
 /// The focus as velocities at the places tell it.
@@ -298,6 +282,6 @@ impl Report {
 }
 
 /// Largest magnitude of a signal.
-fn peak(trace: &[f64]) -> f64 {
+pub(super) fn peak(trace: &[f64]) -> f64 {
     trace.iter().fold(0.0, |most, v| most.max(v.abs()))
 }
