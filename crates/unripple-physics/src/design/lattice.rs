@@ -11,7 +11,7 @@ use crate::Medium;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt::{Formatter, Result};
-use unripple_core::{Lattice, Surface};
+use unripple_core::{Air, Lattice, Surface};
 use unripple_linalg::c64;
 
 /// Frequencies of the table of waves, relative to that of the resonators: below it as waves become short, and beyond the gap of lattices of
@@ -101,7 +101,7 @@ pub(super) fn lattices(surface: &Surface) -> Vec<LatticeFigures> {
 impl LatticeFigures {
     /// The figures of a lattice on the sheet of a surface.
     pub fn of(lattice: &Lattice, surface: &Surface) -> Self {
-        let medium = Medium { air_sides: 0.0, ..Medium::of(&surface.sheet) };
+        let medium = Medium::of(&surface.sheet).with_air(Air::None);
         let ratio = lattice.areal_density() / medium.areal_density;
         let whole = Continuum {
             lattice,

@@ -3,7 +3,7 @@
 use super::{Footprint, Housing, Load};
 use crate::{Medium, PhysicsError};
 use std::f64::consts::{PI, TAU};
-use unripple_core::{Resonator, Surface, require};
+use unripple_core::{Air, Resonator, Surface, require};
 
 /// Largest number of resonators to each of which the modes that are not computed yield as those of an infinite sheet, like other loads. With
 /// more, modes of the sheet are computed until there is one for each resonator. Such a correction takes the square of the number of
@@ -66,5 +66,5 @@ pub(crate) fn of_lattice(surface: &Surface, resonators: usize) -> f64 {
         return 0.0;
     }
     let wavenumber = (4.0 * PI * resonators as f64 / surface.outline.area()).sqrt();
-    Medium { air_sides: 0.0, ..Medium::of(&surface.sheet) }.omega(wavenumber) / TAU
+    Medium::of(&surface.sheet).with_air(Air::None).omega(wavenumber) / TAU
 }
