@@ -12,7 +12,8 @@ const APART_S = 3e-3;
 /** How far two places may be apart, in mm, that are one: they are sent in thousandths. */
 const SAME_MM = 0.5;
 
-const near = ([x, y], [u, v]) => Math.hypot(x - u, y - v) < SAME_MM;
+/** Whether two places in mm are one. */
+export const near = ([x, y], [u, v]) => Math.hypot(x - u, y - v) < SAME_MM;
 
 /** The times of a trace's samples, in s of the surface: they end at the moment shown. */
 const timeOf = ({ head }, i) => head.time_s - ((head.samples - 1 - i) * head.span_s) / head.samples;

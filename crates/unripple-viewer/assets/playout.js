@@ -1,6 +1,6 @@
 // How a touch plays out: slowly until the waves meet under it, then a halt at that instant, with a mark; then on as before.
 
-import { fingerTraces, strongest } from './foci.js';
+import { fingerTraces, near, strongest } from './foci.js';
 import { drawMet } from './marks.js';
 import { fieldValue } from './units.js';
 
@@ -35,8 +35,6 @@ const LOST_MS = 4000;
 
 /** So long, in ms, the session may take to tell how time passes now. */
 const TOLD_MS = 1000;
-
-const SAME_MM = 0.5;
 
 /** Plays touches out, one after the other. `on` says whether it does. */
 export class Playout {
@@ -135,7 +133,7 @@ export class Playout {
     if (!plan || plan.halted) return;
     const { head } = frame;
     if (plan.touched === null) {
-      const there = (head.fingers ?? []).some(({ at_mm: [x, y] }) => Math.hypot(x - plan.mm[0], y - plan.mm[1]) < SAME_MM);
+      const there = (head.fingers ?? []).some(({ at_mm: mm }) => near(mm, plan.mm));
       if (!there) {
         plan.untouched = head.time_s;
         return;
