@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from pathlib import Path
 
 from sphinx.ext.napoleon import Config, NumpyDocstring
@@ -80,7 +81,8 @@ def signature(node: ast.FunctionDef, method: bool) -> str:
     ordered = arguments.args.posonlyargs or arguments.args.args
     if method and ordered:
         ordered.pop(0)
-    text = ast.unparse(arguments.args).replace("_types.", "").replace("_plan_types.", "")
+    # Types of options stand in modules of their own: _types, _plan_types, _bench_types.
+    text = re.sub(r"\b_(?:\w+_)?types\.", "", ast.unparse(arguments.args))
     returned = f" -> {ast.unparse(node.returns)}" if node.returns else ""
     return f"({text}){returned}"
 
